@@ -3,14 +3,18 @@
 // scene. Shots are those of completion_shots.h, their pictures lie in FOLDER. The program prints one line of
 // JSON per shot: dB over the whole frame and over the pixels that the blur of silhouettes reaches, shake and
 // worst pop if it has three frames (tests/flicker/flicker.h), CPU seconds of drawing one frame, and the worst
-// squares. --keep also writes the results, as SHOT.FRAME.exr.
+// squares. --keep also writes the results, as SHOT.FRAME.exr. --rules: for each number of the
+// estimate (engine/samples/completion_model.h), or with --only NAME,NAME… for those named, the same with the
+// number switched off, halved and doubled. --set NAME=VALUE,NAME=VALUE…: with other numbers throughout.
 #include "petzval/files.h"
 #include "petzval/names.h"
 
 #include "completion_shots.h"
+#include "engine/samples/completion_model.h"
 #include "flicker.h"
 #include "process.h"
 
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 
@@ -24,9 +28,27 @@ using bench::Still;
 struct Asked {
     std::string folder, engine = "scatter", keep;
     Quality quality = Quality::Standard;
-    bool known = false;
+    bool known = false, rules = false;
+    std::string only;  // with `rules`: ",NAME,NAME,"; empty: all numbers
     std::vector<std::string> shots;
 };
+
+float& number(const std::string& name) {
+    for (const engine::CompletionNumber& n : engine::completion_numbers())
+        if (n.name == name) return engine::completion_model.*n.value;
+    fail("no number " + name + " in engine/samples/completion_model.h");
+}
+
+// NAME=VALUE,NAME=VALUE…
+void set_numbers(const std::string& words) {
+    for (std::size_t begin = 0; begin < words.size();) {
+        const std::size_t end = std::min(words.find(',', begin), words.size());
+        const std::size_t equals = words.find('=', begin);
+        if (equals >= end) fail("--set " + words + ": NAME=VALUE,…");
+        number(words.substr(begin, equals - begin)) = std::stof(words.substr(equals + 1, end - equals - 1));
+        begin = end + 1;
+    }
+}
 
 Asked asked_of(int count, char** words) {
     Asked asked;
@@ -34,8 +56,8 @@ Asked asked_of(int count, char** words) {
     asked.folder = words[1];
     for (int i = 2; i < count; ++i) {
         const std::string word = words[i];
-        if (word == "--known") {
-            asked.known = true;
+        if (word == "--known" || word == "--rules") {
+            (word == "--known" ? asked.known : asked.rules) = true;
             continue;
         }
         if (!word.starts_with("--")) {
@@ -47,6 +69,10 @@ Asked asked_of(int count, char** words) {
             asked.engine = words[i];
         else if (word == "--keep")
             asked.keep = words[i];
+        else if (word == "--only")
+            asked.only = std::string(",") + words[i] + ",";
+        else if (word == "--set")
+            set_numbers(words[i]);
         else if (word == "--quality") {
             const Result<Quality> quality = parse<Quality>(words[i]);
             if (!quality) fail(quality.error().message);
@@ -134,8 +160,9 @@ void keep(const Picture& result, const std::string& path) {
     if (const Status status = write_exr(path, frame, options); !status) fail(status.error().message);
 }
 
-void judge(const std::string& name, const Asked& asked) {
-    const CompletionShot shot = bench::completion_shot(name, asked.folder, asked.known);
+// state: further members of the line.
+void judge(const std::string& name, const CompletionShot& shot, const Asked& asked,
+           const std::string& state = "") {
     flicker::Frames results, truths;
     Errors errors;
     double cpu_s = 0;
@@ -149,10 +176,11 @@ void judge(const std::string& name, const Asked& asked) {
         add(errors, results.back(), truths.back(), still);
     }
     const std::size_t middle = shot.frames.size() / 2;
-    std::printf("{\"shot\": \"%s\", \"db\": %.3f, \"edges_db\": %.3f, \"edges_share\": %.4f, \"cpu_s\": %.3f",
-                name.c_str(), Errors::db(errors.all, errors.pixels),
-                Errors::db(errors.reached, errors.reached_pixels), errors.reached_pixels / errors.pixels,
-                cpu_s / double(shot.frames.size()));
+    std::printf(
+        "{%s\"shot\": \"%s\", \"db\": %.3f, \"edges_db\": %.3f, \"edges_share\": %.4f, \"cpu_s\": %.3f",
+        state.c_str(), name.c_str(), Errors::db(errors.all, errors.pixels),
+        Errors::db(errors.reached, errors.reached_pixels), errors.reached_pixels / errors.pixels,
+        cpu_s / double(shot.frames.size()));
     if (shot.frames.size() >= 3) {
         const flicker::Steadiness found = flicker::measure(results, truths);
         std::printf(", \"shake\": %.4f, \"pop\": %.4f, \"pop_at\": [%d, %d, %d]", found.shake,
@@ -170,10 +198,45 @@ void judge(const std::string& name, const Asked& asked) {
     std::fflush(stdout);
 }
 
+void judge_with(const engine::CompletionNumber& n, const char* variant, float value,
+                const std::vector<CompletionShot>& shots, const Asked& asked) {
+    float& number = engine::completion_model.*n.value;
+    if (!(value != number)) return;
+    const float before = std::exchange(number, value);
+    const std::string state =
+        "\"number\": \"" + std::string(n.name) + "\", \"variant\": \"" + variant + "\", ";
+    for (std::size_t i = 0; i < shots.size(); ++i) judge(asked.shots[i], shots[i], asked, state);
+    number = before;
+}
+
+void judge_rules(const Asked& asked) {
+    std::vector<CompletionShot> shots;
+    for (const std::string& name : asked.shots)
+        shots.push_back(bench::completion_shot(name, asked.folder, asked.known));
+    // One frame of each seed: hundreds of variants are drawn. Shake is that of built-in scenes.
+    for (std::size_t i = 0; i < shots.size(); ++i)
+        if (std::isdigit(asked.shots[i][0])) shots[i].frames.resize(1);
+    for (std::size_t i = 0; i < shots.size(); ++i) judge(asked.shots[i], shots[i], asked);
+    for (const char* variant : {"off", "half", "double"})
+        for (const engine::CompletionNumber& n : engine::completion_numbers()) {
+            if (!asked.only.empty() && asked.only.find("," + std::string(n.name) + ",") == std::string::npos)
+                continue;
+            const float now = engine::completion_model.*n.value;
+            const float value = variant[0] == 'o' ? n.off : variant[0] == 'h' ? now / 2 : now * 2;
+            if (variant[0] == 'o' ? !std::isnan(value) : value >= n.least && value <= n.most)
+                judge_with(n, variant, value, shots, asked);
+        }
+}
+
 }  // namespace
 
 int main(int count, char** words) {
     const Asked asked = asked_of(count, words);
-    for (const std::string& name : asked.shots) judge(name, asked);
+    if (asked.rules) {
+        judge_rules(asked);
+        return 0;
+    }
+    for (const std::string& name : asked.shots)
+        judge(name, bench::completion_shot(name, asked.folder, asked.known), asked);
     return 0;
 }

@@ -11,7 +11,12 @@ build/bench/completion/worst.png: sharp, before (with --against BUILD), after, t
 --known supplies the scene's hidden layers. Compared with saved numbers, it shows the most that an estimate can gain. The
 branch has no hidden layers and is left out.
 
-Usage: ./dev bench completion [--seeds 0-99] [--small] [--own] [--engine NAME] [--quality Q] [--save F] [--against F] [--sheets N] [--known]
+--rules prints what each number of the estimate is worth (src/engine/samples/completion_model.h): the change of mean dB if the
+number is switched off, halved or doubled. completion_rules.py explains the columns. --only a,b: these numbers alone.
+--set a=1,b=2: other numbers throughout.
+
+Usage: ./dev bench completion [--seeds 0-99] [--small] [--own] [--engine NAME] [--quality Q] [--save F] [--against F] [--sheets N]
+                              [--known] [--rules [--only NAMES]] [--set NAME=VALUE,…]
 --small: seeds 0-9 and the branch alone, about a minute once their truths are there. Truths are kept in
 build/bench/completion until the sources of the scene change; a hundred seeds take ten minutes of two cores.
 """
@@ -23,6 +28,7 @@ import re
 import subprocess
 import sys
 
+import completion_rules
 from quality import CACHE, PROGRAM, ROOT, machine, print_table
 
 BUILD = pathlib.Path(PROGRAM).parents[2]
@@ -53,7 +59,8 @@ def measured(build, shots, given, folder, keep=None):
     program = build / "bench/petzval_bench_completion"
     if not program.exists():
         sys.exit(f"bench: {program} is missing; build the target petzval_bench_completion there, or save its numbers")
-    flags = [*(["--keep", keep] if keep else []), *(["--known"] if given.known else [])]
+    flags = [*(["--keep", keep] if keep else []), *(["--known"] if given.known else []),
+             *(["--set", given.set] if given.set and build == BUILD else [])]
     words = [program, folder, "--engine", given.engine, "--quality", given.quality, *flags, *shots]
     found = {}
     with subprocess.Popen(list(map(str, words)), stdout=subprocess.PIPE, text=True) as running:
@@ -124,6 +131,9 @@ def parsed():
     parser.add_argument("--against", type=pathlib.Path)
     parser.add_argument("--sheets", type=int, default=0)
     parser.add_argument("--known", action="store_true", help="supply the scene's hidden layers")
+    parser.add_argument("--rules", action="store_true", help="what each number of the estimate is worth")
+    parser.add_argument("--only", help="with --rules: numbers, with commas")
+    parser.add_argument("--set", help="other numbers of the estimate: NAME=VALUE,…")
     given = parser.parse_args()
     first, _, last = given.seeds.partition("-")
     given.shots = given.seeds.split(",") if not last else [str(i) for i in range(int(first), int(last) + 1)]
@@ -139,6 +149,12 @@ def main():
     keep = {which: folder.parent / which for which in ("before", "after")} if given.sheets else {}
     for place in [folder, *keep.values()]:
         place.mkdir(parents=True, exist_ok=True)
+    command = f"{machine()}; command: ./dev bench completion {' '.join(sys.argv[1:])}".rstrip() + "."
+    if given.rules:
+        words = [BUILD / "bench/petzval_bench_completion", folder, "--engine", given.engine, "--quality", given.quality, "--rules",
+                 *(["--only", given.only] if given.only else []), *(["--set", given.set] if given.set else []), *given.shots]
+        print_table(*completion_rules.table(completion_rules.measured(words), group_of))
+        return print(f"\n{given.engine}, {given.quality}. {command}")
     now = measured(BUILD, given.shots, given, folder, keep.get("after"))
     before, folders = None, [keep.get("after")]
     if given.against and given.against.is_dir():
@@ -148,7 +164,7 @@ def main():
     head = ["shots", "count", "dB", "edges dB", "worst edges", "shake", "worst pop", "CPU s"]
     head += ["dB gained", "edges gained", "most lost", "CPU times"] if before else []
     print_table(head, [row for row in (summary(group, now, before) for group in GROUPS) if row])
-    print(f"\n{given.engine}, {given.quality}. {machine()}; command: ./dev bench completion {' '.join(sys.argv[1:])}".rstrip() + ".")
+    print(f"\n{given.engine}, {given.quality}. {command}")
     if given.save:
         given.save.write_text(json.dumps(now, indent=0) + "\n")
     if given.sheets:

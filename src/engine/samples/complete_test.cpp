@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -58,6 +60,19 @@ TEST(CompletedPicture, RowsAreThoseOfAll) {
                 EXPECT_TRUE(std::equal(some.begin(), some.end(), same.begin(), same.end(), equal))
                     << x << "," << y;
             }
+    }
+}
+
+TEST(CompletionModel, EveryNumberLiesInItsRangeAndHasAReason) {
+    std::set<std::string> names;
+    for (const CompletionNumber& n : completion_numbers()) {
+        const float value = completion_model.*n.value;
+        EXPECT_LE(n.least, value) << n.name;
+        EXPECT_GE(n.most, value) << n.name;
+        EXPECT_LT(n.least, n.most) << n.name;
+        EXPECT_NE(n.off, value) << n.name << " is switched off";
+        EXPECT_FALSE(std::string(n.unit).empty() || std::string(n.reason).empty()) << n.name;
+        EXPECT_TRUE(names.insert(n.name).second) << n.name << " stands twice";
     }
 }
 

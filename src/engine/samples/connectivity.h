@@ -7,24 +7,24 @@
 #include "petzval/image.h"
 #include "petzval/workers.h"
 
+#include "engine/samples/completion_model.h"
+
 #include <cmath>
 
 namespace petzval::engine {
 
 // A step of less than a pixel of radius hides hardly anything, so it always connects.
 inline bool always_connected(float coc_a_px, float coc_b_px) {
-    constexpr float kAlwaysConnectedPx = 0.9f;
-    return std::abs(coc_b_px - coc_a_px) <= kAlwaysConnectedPx;
+    return std::abs(coc_b_px - coc_a_px) <= completion_model.step_px;
 }
 
 // True if two neighbouring samples belong to one surface. A step that does not always connect them does
 // where it continues the slope on one of its sides (signed change of radius from the sample before a to a,
 // and from b to the sample after b).
 inline bool same_surface(float coc_a_px, float coc_b_px, float slope_before_a_px, float slope_after_b_px) {
-    constexpr float kSlopeTolerance = 0.5f;
     if (always_connected(coc_a_px, coc_b_px)) return true;
     const float step = coc_b_px - coc_a_px;
-    const float tolerance = kSlopeTolerance * std::abs(step);
+    const float tolerance = completion_model.slope_tolerance * std::abs(step);
     return std::abs(step - slope_before_a_px) <= tolerance || std::abs(step - slope_after_b_px) <= tolerance;
 }
 

@@ -5,12 +5,14 @@
 #include "petzval/image.h"
 #include "petzval/workers.h"
 
+#include "engine/samples/completion_model.h"
 #include "engine/samples/connectivity.h"
 #include "engine/samples/dim.h"
 #include "engine/samples/silhouettes/two_surfaces.h"
 #include "engine/samples/sparse_rows.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -47,7 +49,7 @@ using Mixtures = SparseRows<Mixture>;
 
 // How much is looked at to take a pixel of a silhouette apart.
 struct UnmixRule {
-    int clean_within_px = 3;    // clean colours are looked for
+    int clean_within_px = int(completion_model.clean_within_px);  // clean colours are looked for
     bool along_outline = true;  // the share that its shape tells is a mean along the outline
 };
 
@@ -93,7 +95,7 @@ void unmix_nearer(Mixtures& mixtures, const LitPicture& picture, const HiddenLay
 // of 8 at six times that. Where nothing was found nothing is shared: that is the pixel's own distance from
 // the silhouette.
 struct FillRule {
-    float shared_from_px = 6;
+    float shared_from_px = completion_model.shared_from_px;
     int directions = 16;          // that are looked in: 16, 8 or 4,
     int blurred_directions = 16;  // or no more than these where all that is met in them is blurred
     bool textures = true;         // what is in focus goes on as a texture, too

@@ -1,16 +1,13 @@
 #include "engine/samples/known_surfaces.h"
 
 #include "base/parallel.h"
+#include "engine/samples/completion_model.h"
 #include "engine/samples/nearest_pixel.h"
 
 #include <algorithm>
 
 namespace petzval::engine {
 namespace {
-
-// Times white: what is darker is no light, a bright wall may go on as long as it likes.
-constexpr float kLight = 0.5f;
-constexpr float kWidestLightPx = 64;  // what is wider is a lit surface, as of lamps
 
 float light_of(Rgba c) { return std::max(0.0f, luminance(c)); }
 
@@ -47,16 +44,16 @@ void KnownSurfaces::find_lights(Workers& workers) {
     parallel_for(height, workers, [&](int row) {
         for (int y = row * kBlock; y < std::min((row + 1) * kBlock, radii_.height()); ++y)
             for (int x = 0; x < radii_.width(); ++x)
-                if (luminance(picture_.colour(x, y)) >= kLight * white_ &&
-                    luminance(picture_.dim(x, y)) >= kLight * white_)
+                if (luminance(picture_.colour(x, y)) >= completion_model.light * white_ &&
+                    luminance(picture_.dim(x, y)) >= completion_model.light * white_)
                     lit(x / kBlock, row) = 1;
     });
-    constexpr int kBlocks = int(kWidestLightPx) / kBlock + 1;
+    const int blocks = int(completion_model.light_widest_px) / kBlock + 1;
     lights_around_ = Image<unsigned char>(width, height);
     parallel_for(height, workers, [&](int y) {
-        for (int v = std::max(0, y - kBlocks); v <= std::min(height - 1, y + kBlocks); ++v)
+        for (int v = std::max(0, y - blocks); v <= std::min(height - 1, y + blocks); ++v)
             for (int x = 0; x < width; ++x)
-                for (int u = std::max(0, x - kBlocks); u <= std::min(width - 1, x + kBlocks); ++u)
+                for (int u = std::max(0, x - blocks); u <= std::min(width - 1, x + blocks); ++u)
                     lights_around_(x, y) |= lit(u, v);
     });
 }
@@ -73,45 +70,45 @@ Rgba KnownSurfaces::going_on(Place from, Direction outwards, float distance_px) 
     const Place before{from.x + nearest_pixel(outwards.x), from.y + nearest_pixel(outwards.y), from.coc_px};
     float light = std::max(light_of(own), light_of(colour(from.x, from.y)));
     if (shows(before.x, before.y, from.coc_px)) {
-        const float told = 0.5f * edges_.passes({before.x, before.y}, hidden, from.coc_px);
+        const float told =
+            completion_model.light_before * edges_.passes({before.x, before.y}, hidden, from.coc_px);
         light = std::max(light, light_of((1 - told) * own + told * colour(before.x, before.y)));
     }
-    const float falls = above(light, kLight * white_);
+    const float falls = above(light, completion_model.light * white_);
     const Rgba dim = falls < 1 ? among_lights(own, from, outwards, distance_px) : own;
     if (falls <= 0) return dim;
-    // With 1 the lit windows of the path-traced fence come closer, with 2 a sign shakes less.
-    constexpr Mean kOfLight{1.5f};
-    return dim * (1 - falls) + falls * shown(from, outwards, distance_px, kOfLight, own);
+    const Mean of_light{completion_model.light_span};
+    return dim * (1 - falls) + falls * shown(from, outwards, distance_px, of_light, own);
 }
 
 // What is dark itself, but little darker than what shows with it, is the gap between the letters of a sign:
 // it does not end that, and which of the two came last at the edge does not decide what goes on. What is far
 // darker is the wall beside a lit window.
 Rgba KnownSurfaces::among_lights(Rgba own, Place from, Direction outwards, float distance_px) const {
-    constexpr float kLit = 0.2f, kContrast = 14;  // times white; times the own light
-    const float usual = kContrast * light_of(own);
-    if (usual <= kLit * white_ || !lights_around(from)) return own;  // too dark to lie between letters
+    const float least = completion_model.gap_lit * white_;
+    const float usual = completion_model.gap_contrast * light_of(own);
+    if (usual <= least || !lights_around(from)) return own;  // too dark to lie between letters
     const Rgba all = shown(from, outwards, distance_px, {1, usual}, own);
-    const float lit = above(light_of(all), kLit * white_);
+    const float lit = above(light_of(all), least);
     return own * (1 - lit) + lit * all;
 }
 
 // What blurs it hides detail, too: the mean of at least a part of that blur, here and farther outwards.
 Rgba KnownSurfaces::wide_colour(Place at, Direction outwards, float distance_px) const {
-    constexpr float kWide = 0.2f;  // to either side, of the distance and of the blur
-    constexpr float kDeep = 0.25f, kDeepestPx = 8;
+    const CompletionModel& model = completion_model;
     const CutEdges::Point hidden = behind(at, outwards, distance_px);
-    const float blur_px = std::abs(at.coc_px), wide = kWide * std::max(distance_px, blur_px);
+    const float blur_px = std::abs(at.coc_px), wide = model.wide_share * std::max(distance_px, blur_px);
     Rgba sum = colour(at.x, at.y);
     float total = 1;
-    for (const float out : {0.0f, std::min(kDeepestPx, kDeep * blur_px)})
+    for (const float out : {0.0f, std::min(model.deepest_px, model.deep_share * blur_px)})
         for (const float aside : {-wide, 0.0f, wide}) {
             const int dx = nearest_pixel(out * outwards.x - aside * outwards.y),
                       dy = nearest_pixel(out * outwards.y + aside * outwards.x);
             const int x = at.x + dx, y = at.y + dy;
             if ((dx == 0 && dy == 0) || !shows(x, y, at.coc_px)) continue;
             const float weight = edges_.passes({x, y}, hidden, at.coc_px);
-            sum += weight * colour(x, y), total += weight;
+            sum += weight * colour(x, y);
+            total += weight;
         }
     return sum * (1 / total);
 }
@@ -129,12 +126,13 @@ Rgba KnownSurfaces::shown(Place from, Direction outwards, float distance_px, con
         const float nearer = (float(part) + 0.5f) / kParts;
         const float far = mean.span * distance_px * nearer / (1 - nearer);
         const int x = from.x + nearest_pixel(far * outwards.x), y = from.y + nearest_pixel(far * outwards.y);
-        if (far > kWidestLightPx || !radii_.rect().contains(x, y)) break;
+        if (far > completion_model.light_widest_px || !radii_.rect().contains(x, y)) break;
         if (!one_surface(radii_(x, y), from.coc_px)) continue;
         const Rgba light = comparable(colour(x, y));
         const float excess = light_of(light) / mean.usual, excess2 = excess * excess;
         const float weight = edges_.passes({x, y}, hidden, from.coc_px) / (1 + excess2 * excess2);
-        sum += weight * light, total += weight;
+        sum += weight * light;
+        total += weight;
     }
     return total > 0 ? sum * (1 / total) : otherwise;
 }

@@ -2,6 +2,7 @@
 // something nearer hides them.
 #pragma once
 
+#include "engine/samples/completion_model.h"
 #include "engine/samples/hidden.h"
 #include "engine/samples/outlines/cut_edges.h"
 
@@ -12,7 +13,7 @@ namespace petzval::engine {
 
 // The largest difference of radii between two pixels, some distance apart, that may show one surface.
 inline float surface_step_px(float coc_a_px, float coc_b_px) {
-    return 1.5f + 0.05f * std::abs(coc_a_px + coc_b_px);
+    return completion_model.apart_px + completion_model.step_share * std::abs(coc_a_px + coc_b_px);
 }
 inline bool one_surface(float coc_a_px, float coc_b_px) {
     return std::abs(coc_a_px - coc_b_px) < surface_step_px(coc_a_px, coc_b_px);
@@ -38,7 +39,7 @@ public:
         return m ? m->far_colour : picture_.dim(x, y);
     }
     bool shows(int x, int y, float coc_px) const {
-        return radii_.rect().contains(x, y) && std::abs(radii_(x, y) - coc_px) < 1;
+        return radii_.rect().contains(x, y) && std::abs(radii_(x, y) - coc_px) < completion_model.shows_px;
     }
 
     // A pixel that shows a surface.

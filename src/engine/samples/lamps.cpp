@@ -1,6 +1,7 @@
 #include "engine/samples/lamps.h"
 
 #include "base/parallel.h"
+#include "engine/samples/completion_model.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +9,6 @@
 
 namespace petzval::engine {
 namespace {
-
-constexpr float kBehindPx = 0.9f;  // nearer by less hides next to nothing
 
 struct Pixel {
     int x, y;
@@ -35,12 +34,12 @@ public:
     float hides(int x, int y, float lamp_px) const {
         if (!contains(x, y)) return 0;
         const Mixture* m = mixtures_.at(x, y);
-        if ((m ? m->near_coc_px : coc_(x, y)) >= lamp_px - kBehindPx) return 0;
+        if ((m ? m->near_coc_px : coc_(x, y)) >= lamp_px - completion_model.step_px) return 0;
         if (!m) return 1;
-        constexpr float kHidesNothing = 0.8f;
+        const float nothing = completion_model.lamp_hides;
         return m->shows_far || m->far_light != Rgba{}
                    ? 0
-                   : std::max(0.0f, (m->near_share - kHidesNothing) / (1 - kHidesNothing));
+                   : std::max(0.0f, (m->near_share - nothing) / (1 - nothing));
     }
     // Between the middles of four pixels.
     Rgba at(float x, float y) const {
@@ -84,7 +83,8 @@ public:
             for (int v = p.y - 1; v <= p.y + 1; ++v)
                 for (int u = p.x - 1; u <= p.x + 1; ++u) visit({u, v}, light_.coc_px(p.x, p.y), lamp, open);
         }
-        if (lamp.bounds.width() > kWidestLampPx || lamp.bounds.height() > kWidestLampPx) lamp.pixels.clear();
+        if (float(std::max(lamp.bounds.width(), lamp.bounds.height())) > completion_model.lamp_widest_px)
+            lamp.pixels.clear();
         return lamp;
     }
 
@@ -135,7 +135,8 @@ void complete(const Lamp& lamp, const LampLight& light, const Visit& visit) {
           ny = float(lamp.cut_y / lamp.cuts - lamp.lit_y / lamp.lit);
     const float length = std::hypot(nx, ny);
     if (length < 0.1f) return;
-    nx /= length, ny /= length;
+    nx /= length;
+    ny /= length;
     const auto [begin, end] = extent(lamp, light, nx, ny);
     const auto [left, right] = extent(lamp, light, -ny, nx);
     const float shows = end - begin, hidden = std::min(right - left - shows, shows);
@@ -155,8 +156,7 @@ void complete(const Lamp& lamp, const LampLight& light, const Visit& visit) {
 }  // namespace
 
 Rgba unhidden_light(const Mixture& m) {
-    constexpr float kLeastSeen = 0.75f;  // 0.5 draws lamps behind hair too bright
-    return m.far_light * (1 / std::max(kLeastSeen, 1 - m.near_share));
+    return m.far_light * (1 / std::max(completion_model.lamp_least_seen, 1 - m.near_share));
 }
 
 HiddenLamps lamps_behind(const LitPicture& picture, View<const float> coc, const Mixtures& mixtures,

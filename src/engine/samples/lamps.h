@@ -30,7 +30,7 @@ struct HiddenLamps {
     }
 };
 
-// No lamp is looked at farther than this from where an edge cuts it: what is wider is a lit surface.
+// Most of lamp_widest_px: no lamp is looked at farther from where an edge cuts it.
 constexpr int kWidestLampPx = 32;
 
 // A lamp is taken to be as deep, across the edge that cuts it, as it is wide along that, and point-symmetric:

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 namespace petzval::laws {
+// NOLINTBEGIN(cppcoreguidelines-macro-usage)
 #define LAW_NUMBER float
 #define LAW_FUNCTION inline
 #define LAW_CHANGES float&
@@ -13,6 +14,7 @@ namespace petzval::laws {
 #define LAW_WHERE(x, a, b) ((x) > 0 ? (a) : (b))
 #define LAW_LEAST(a, b) std::min(a, b)
 #define LAW_MOST(a, b) std::max(a, b)
+// NOLINTEND(cppcoreguidelines-macro-usage)
 #include "laws/lens_left.inc"
 }  // namespace petzval::laws
 

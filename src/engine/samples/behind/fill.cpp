@@ -1,4 +1,5 @@
 #include "base/parallel.h"
+#include "engine/samples/completion_model.h"
 #include "engine/samples/hidden.h"
 #include "engine/samples/known_surfaces.h"
 #include "engine/samples/nearest_pixel.h"
@@ -12,15 +13,7 @@
 namespace petzval::engine {
 namespace {
 
-constexpr int kDirections = 16;      // even: opposite directions are paired
-constexpr float kBehindPx = 0.9f;    // farther by less than this in radius is not worth filling
-constexpr float kSharpPx = 3;        // what is blurred by less shows which directions were looked in
-constexpr float kPastEdgePx = 2.0f;  // how far beyond the reach of the blur to look
-constexpr float kLikeEnough =
-    0.1f;                       // squared relative difference below which two patches are as good as the same
-constexpr float kPlain = 0.1f;  // squared relative contrast below which a patch shows no edge
-constexpr float kUsualContrast = 20;  // of votes; brighter ones are lamps
-constexpr float kOneSided = 10;       // what a surface met on one side counts, against two unlike patches
+constexpr int kDirections = 16;  // even: opposite directions are paired
 
 float square(Rgba c) { return c.r * c.r + c.g * c.g + c.b * c.b; }
 
@@ -62,7 +55,7 @@ public:
     }
     // Their mean; but a lamp that few see does not shine all over a surface.
     Hidden result() const {
-        const float usual = kUsualContrast * (roots_ / weight_) * (roots_ / weight_) + 1e-6f;
+        const float usual = completion_model.usual_contrast * (roots_ / weight_) * (roots_ / weight_) + 1e-6f;
         Rgba sum;
         float coc = 0, total = 0;
         for (const Vote& vote : std::span(votes_).first(std::size_t(count_))) {
@@ -104,7 +97,7 @@ public:
 
     // Whether any lens ray can come past what hides what is behind (x, y).
     bool may_hide(int x, int y) const {
-        return beyond_(x / kBlock, y / kBlock) <= std::abs(coc_(x, y)) + kPastEdgePx;
+        return beyond_(x / kBlock, y / kBlock) <= std::abs(coc_(x, y)) + completion_model.past_edge_px;
     }
     // Appends what lies behind (x, y), if any surface nearby does.
     void fill(int x, int y, std::vector<Hidden>& hidden) const {
@@ -117,7 +110,8 @@ public:
         const auto look = [&](std::size_t k) {
             hits[k] = search(x, y, own, slope, paths_[k]);
             any = any || hits[k][0].found;
-            for (const Found& f : hits[k]) sharp = sharp || (f.found && std::abs(f.coc_px) < kSharpPx);
+            for (const Found& f : hits[k])
+                sharp = sharp || (f.found && std::abs(f.coc_px) < completion_model.texture_sharp_px);
         };
         for (std::size_t k = 0; k < kDirections; k += every_blurred_) look(k);
         if (sharp || !any)
@@ -156,7 +150,8 @@ private:
             if (x + dx < 0 || x + dx >= width || y + dy < 0 || y + dy >= height) return;
             blocks_(x, y).free = std::min(blocks_(x, y).free, blocks_(x + dx, y + dy).free + kBlock);
             const float reached = beyond_(x + dx, y + dy) + (dx != 0 && dy != 0 ? kDiagonal : kSide);
-            if (reached >= beyond_(x, y) || far(x + dx, y + dy) <= nearest(x, y) + kBehindPx) return;
+            if (reached >= beyond_(x, y) || far(x + dx, y + dy) <= nearest(x, y) + completion_model.step_px)
+                return;
             beyond_(x, y) = reached, far(x, y) = far(x + dx, y + dy);
         };
         for (int y = 0; y < height; ++y)
@@ -169,7 +164,7 @@ private:
 
     // Where the steps of each direction land: every pixel at first, every eighth of the way further out.
     void lay_paths() {
-        const float longest = largest_ + std::abs(farthest_) + kPastEdgePx;
+        const float longest = largest_ + std::abs(farthest_) + completion_model.past_edge_px;
         for (int k = 0; k < kDirections; ++k) {
             const double angle = 2 * M_PI * k / kDirections;
             Path& path = paths_[std::size_t(k)];
@@ -186,11 +181,11 @@ private:
     // The first clean pixel of a farther surface, walking from (x, y), and of one farther still.
     std::array<Found, kHits> search(int x, int y, float own, Slope slope, const Path& path) const {
         const float own_per_px = std::max(0.0f, slope.x * path.direction.x + slope.y * path.direction.y);
-        float longest = std::abs(own) + std::abs(farthest_) + kPastEdgePx;
+        float longest = std::abs(own) + std::abs(farthest_) + completion_model.past_edge_px;
         const float* const start = &known_.radii()(x, y);
         std::array<Found, kHits> hits;
         std::size_t n = 0;
-        float behind = own + kBehindPx;
+        float behind = own + completion_model.step_px;
         const unsigned width = unsigned(coc_.width()), height = unsigned(coc_.height());
         const Step *step = path.steps.data(), *const end = step + path.steps.size();
         while (step != end && step->t <= longest) {
@@ -199,12 +194,13 @@ private:
             const Block& block = blocks_(int(u / unsigned(kBlock)), int(v / unsigned(kBlock)));
             // (Of a block all of which lies in front, no pixel is looked at: their plane fills no cache.)
             const float c = block.farthest > behind ? start[step->offset] : behind;
-            if (c > behind && c > own + step->t * own_per_px + kBehindPx) {
-                if (step->t <= std::abs(own) + std::abs(c) + kPastEdgePx) {
+            if (c > behind && c > own + step->t * own_per_px + completion_model.step_px) {
+                if (step->t <= std::abs(own) + std::abs(c) + completion_model.past_edge_px) {
                     hits[n++] = {true, int(u), int(v), c, step->t};
-                    longest = std::min(longest, 2 * step->t + 8);
+                    longest = std::min(
+                        longest, completion_model.search_factor * step->t + completion_model.search_more_px);
                 }
-                behind = c + 2 * kBehindPx;
+                behind = c + 2 * completion_model.step_px;
                 if (n == kHits || behind >= farthest_) break;
             }
             // No other surface comes before the next silhouette.
@@ -220,15 +216,16 @@ private:
     }
 
     Patch patch_at(const Found& hit, Direction d) const {
+        const float near = completion_model.patch_near_px, far = completion_model.patch_far_px;
         const int x = hit.x, y = hit.y;
         // Across the direction in a fixed sense, so that patches met in opposite directions can be compared.
         const bool turned = d.y < 0 || (d.y == 0 && d.x < 0);
         const float across_x = turned ? d.y : -d.y, across_y = turned ? -d.x : d.x;
         const std::array<Direction, kPatch> offsets{{{0, 0},
-                                                     {1.5f * across_x, 1.5f * across_y},
-                                                     {-1.5f * across_x, -1.5f * across_y},
-                                                     {1.5f * d.x, 1.5f * d.y},
-                                                     {3 * d.x, 3 * d.y}}};
+                                                     {near * across_x, near * across_y},
+                                                     {-near * across_x, -near * across_y},
+                                                     {near * d.x, near * d.y},
+                                                     {far * d.x, far * d.y}}};
         Patch patch;
         for (int k = 0; k < kPatch; ++k) {
             const Direction o = offsets[std::size_t(k)];
@@ -243,23 +240,25 @@ private:
     // the other: plain patches look alike everywhere.
     float likeness(const Found& a, Direction to_a, const Found& b, Direction to_b) const {
         const Patch at_a = patch_at(a, to_a), at_b = patch_at(b, to_b);
-        float difference = 0, level = 0.003f;
+        const CompletionModel& model = completion_model;
+        float difference = 0, level = model.patch_level;
         for (std::size_t k = 0; k < kPatch; ++k) {
             difference += square(at_a[k] - at_b[k]);
             level += square(0.5f * (at_a[k] + at_b[k]));
         }
         const float depth = a.coc_px - b.coc_px;
-        const float unlike = difference / level + 0.02f * depth * depth;
+        const float unlike = difference / level + model.patch_depth * depth * depth;
         const auto across = [](const Patch& p) { return square(p[0] - p[1]) + square(p[0] - p[2]); };
         const auto along = [](const Patch& p) { return square(p[0] - p[3]) + square(p[0] - p[4]); };
-        const float plain = kPlain * level;
+        const float plain = model.patch_plain * level;
         const float edge = (plain + across(at_a) + across(at_b)) / (plain + along(at_a) + along(at_b));
-        return edge / (kLikeEnough + unlike * unlike);
+        return edge / (model.patch_alike + unlike * unlike);
     }
 
     // A surface mostly there is wholly there, one hardly there is not: smoothstep around one half.
     static float sharpened(float share) {
-        const float t = std::clamp((share - 0.3f) / 0.4f, 0.0f, 1.0f);
+        const float t =
+            std::clamp((share - completion_model.share_least) / completion_model.share_range, 0.0f, 1.0f);
         return t * t * (3 - 2 * t);
     }
 
@@ -333,7 +332,7 @@ private:
         for (std::size_t k = 0; k < kPairs; ++k) {
             const Found *a = take(k), *b = take(k + kPairs);
             // Seen on both sides, it most likely goes on between them, unless an edge cuts one side off.
-            const float weight = a && b ? 2.0f : 0.5f;
+            const float weight = a && b ? completion_model.share_pair : completion_model.share_alone;
             if (a) meet(*a, weight);
             if (b) meet(*b, weight);
             const float from_a = passes(a), from_b = passes(b), both = from_a * from_b;
@@ -364,7 +363,7 @@ private:
         const float away = one.distance_px * one.distance_px;
         const Rgba colour = known_.going_on(one.place(), paths_[k].direction, one.distance_px);
         votes.add(hidden.going_on(one.place(), colour), one.coc_px,
-                  weight * (kOneSided * nearest_px / (away * one.distance_px)));
+                  weight * (completion_model.alone_weight * nearest_px / (away * one.distance_px)));
     }
 
     KnownSurfaces known_;
@@ -411,7 +410,7 @@ public:
     const Range* find(int x, int y, float surface_px) const {
         for (const Answer& a : answers_)
             if (((x ^ a.x) | (y ^ a.y)) < a.square &&  // squares are powers of two
-                std::abs(a.surface_px - surface_px) <= kBehindPx / 2)
+                std::abs(a.surface_px - surface_px) <= completion_model.step_px / 2)
                 return &a.range;
         return nullptr;
     }

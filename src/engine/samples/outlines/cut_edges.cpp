@@ -1,6 +1,7 @@
 #include "engine/samples/outlines/cut_edges.h"
 
 #include "base/parallel.h"
+#include "engine/samples/completion_model.h"
 #include "engine/samples/nearest_pixel.h"
 
 #include <algorithm>
@@ -12,37 +13,35 @@
 namespace petzval::engine {
 namespace {
 
-constexpr int kReach = 6;       // an edge is judged by the pixels around its end
-constexpr float kDark = 0.1f;   // times white; keeps ratios finite
+constexpr int kReach = 6;       // largest edge_reach_px
 constexpr int kLongestPx = 60;  // it goes on for; strips of a frame hold more around them
 constexpr int kCell = 16;       // pixels on a side
-constexpr float kBehindPx = 0.9f;
 
 float rise(float value, float from, float to) { return std::clamp((value - from) / (to - from), 0.0f, 1.0f); }
 
 class EdgeFinder {
 public:
     EdgeFinder(const LitPicture& picture, View<const float> radii, const Mixtures& mixtures, float white)
-        : picture_(picture), radii_(radii), mixtures_(mixtures), dark_(kDark * white) {}
+        : picture_(picture), radii_(radii), mixtures_(mixtures), dark_(completion_model.edge_dark * white) {}
 
     // The edge of a surface at coc_px that comes to (x, y), where something nearer begins.
     std::optional<CutEdges::Edge> edge_at(int x, int y, float coc_px) const {
-        constexpr float kLeastChange = 0.25f, kLeastCoherence = 0.6f, kStraight = 2, kOffPx = 1;
+        const CompletionModel& model = completion_model;
         const Changes c = changes_around(x, y, coc_px);
-        if (c.sum < kLeastChange) return {};
+        if (c.sum < model.edge_change) return {};
         const float coherence = std::hypot(c.xx - c.yy, 2 * c.xy) / c.sum;
-        if (coherence < kLeastCoherence) return {};
+        if (coherence < model.edge_coherence) return {};
         const float angle = 0.5f * std::atan2(2 * c.xy, c.xx - c.yy);
         const float nx = std::cos(angle), ny = std::sin(angle);
         const float dx = -c.at_x / c.sum, dy = -c.at_y / c.sum;  // from its middle to here
         const float off = dx * nx + dy * ny;
         const float spread = (nx * nx * c.at_xx + 2 * nx * ny * c.at_xy + ny * ny * c.at_yy) / c.sum;
-        if (std::abs(off) > kOffPx || spread - off * off > kStraight) return {};
+        if (std::abs(off) > model.edge_off_px || spread - off * off > model.edge_spread_px2) return {};
         float into_x = -ny, into_y = nx, along = dx * into_x + dy * into_y;
         if (along < 0) into_x = -into_x, into_y = -into_y, along = -along;
         if (along < 1 || !hidden(x, y, into_x, into_y, coc_px)) return {};
-        const float strength = rise(coherence, kLeastCoherence, kLeastCoherence + 0.1f) *
-                               rise(c.sum, kLeastChange, 2 * kLeastChange);
+        const float strength = rise(coherence, model.edge_coherence, model.edge_coherence + 0.1f) *
+                               rise(c.sum, model.edge_change, 2 * model.edge_change);
         return CutEdges::Edge{{x, y}, -off * nx, -off * ny, into_x, into_y, coc_px, strength};
     }
 
@@ -54,9 +53,10 @@ private:
         float at_x = 0, at_y = 0, at_xx = 0, at_xy = 0, at_yy = 0;
     };
     Changes changes_around(int x, int y, float coc_px) const {
+        const int reach = int(completion_model.edge_reach_px);
         Changes c;
         const Rect window =
-            Rect{x - kReach, y - kReach, x + kReach + 1, y + kReach + 1}.intersected(radii_.rect().grown(-1));
+            Rect{x - reach, y - reach, x + reach + 1, y + reach + 1}.intersected(radii_.rect().grown(-1));
         if (window.empty()) return c;
         const Lights lights = lights_of(window.grown(1), coc_px);
         for (int v = window.y0; v < window.y1; ++v)
@@ -76,10 +76,10 @@ private:
     // Whether something nearer hides what comes two pixels on.
     bool hidden(int x, int y, float into_x, float into_y, float coc_px) const {
         const int u = x + nearest_pixel(2 * into_x), v = y + nearest_pixel(2 * into_y);
-        return radii_.rect().contains(u, v) && radii_(u, v) <= coc_px - kBehindPx;
+        return radii_.rect().contains(u, v) && radii_(u, v) <= coc_px - completion_model.step_px;
     }
     bool clean(int x, int y, float coc_px) const {
-        return std::abs(radii_(x, y) - coc_px) < 1 && !mixtures_.at(x, y);
+        return std::abs(radii_(x, y) - coc_px) < completion_model.shows_px && !mixtures_.at(x, y);
     }
     // Rows of kSide: light of the surface's clean pixels, -1 of others.
     static constexpr int kSide = 2 * kReach + 3;
@@ -150,13 +150,12 @@ void CutEdges::sort_into_cells(int width, int height) {
 }
 
 float CutEdges::passes(Point shown, Point hidden, float coc_px) const {
-    constexpr float kSoftPx = 0.5f, kBeforePx = 3;
-    constexpr float kOnePx = 1.5f;  // surfaces farther apart are two
+    const CompletionModel& model = completion_model;
     if (edges_.empty()) return 1;
     float open = 1;
     for (const int i : near_[std::size_t(hidden.y / kCell * columns_ + hidden.x / kCell)]) {
         const Edge& e = edges_[std::size_t(i)];
-        if (std::abs(e.coc_px - coc_px) > kOnePx) continue;
+        if (std::abs(e.coc_px - coc_px) > model.apart_px) continue;
         const auto x = [&](Point p) { return float(p.x - e.at.x) - e.off_x; };
         const auto y = [&](Point p) { return float(p.y - e.at.y) - e.off_y; };
         const auto side = [&](Point p) { return y(p) * e.into_x - x(p) * e.into_y; };
@@ -164,8 +163,9 @@ float CutEdges::passes(Point shown, Point hidden, float coc_px) const {
         const float a = side(hidden), b = side(shown);
         if (a * b >= 0) continue;
         const float met = (ahead(hidden) * b - ahead(shown) * a) / (b - a);
-        if (met < -kBeforePx || met > float(kLongestPx)) continue;
-        open *= 1 - e.strength * std::min({1.0f, std::abs(a) / kSoftPx, std::abs(b) / kSoftPx});
+        if (met < -model.edge_before_px || met > model.edge_longest_px) continue;
+        open *= 1 - e.strength * std::min({1.0f, std::abs(a) / model.barrier_soft_px,
+                                           std::abs(b) / model.barrier_soft_px});
     }
     return std::max(open, kCut);
 }

@@ -1,6 +1,7 @@
 #include "engine/samples/outlines/hidden_outlines.h"
 
 #include "base/parallel.h"
+#include "engine/samples/completion_model.h"
 #include "engine/samples/known_surfaces.h"
 #include "engine/samples/nearest_pixel.h"
 
@@ -14,12 +15,11 @@ namespace {
 using Outline = HiddenOutlines::Outline;
 
 constexpr int kCell = 16;        // pixels on a side
-constexpr int kLongestPx = 110;  // an outline with one visible end
-constexpr int kFarthestPx = 90;  // between two visible ends of an outline
+constexpr int kLongestPx = 110;  // most of outline_longest_px
+constexpr int kFarthestPx = 90;  // most of outline_farthest_px
 constexpr int kEndCell = 32;     // pixels on a side
 static_assert(kFarthestPx + kTracedPx + kEndCell <= kOutlineReachPx);
 static_assert(kLongestPx + kTracedPx + kCell <= kOutlineReachPx);
-constexpr float kMorePx = 1.5f;
 
 // A column or row of `cells` cells, each `px` wide.
 int cell_of(int at, int px, int cells) { return std::clamp(at / px, 0, cells - 1); }
@@ -65,7 +65,8 @@ public:
             else if (ends_[std::size_t(other)].told_by == 0)  // of a piece too short to go on by itself
                 add(ends_[i], joints[i].arc, hidden_for(ends_[i], {joints[i].arc}), outlines);
             else if (ends_[i].told_by > 0 && other > int(i))
-                add(ends_[i], joints[i].arc, joints[i].length_px + kMorePx, outlines);
+                add(ends_[i], joints[i].arc, joints[i].length_px + completion_model.outline_more_px,
+                    outlines);
         }
         return outlines;
     }
@@ -96,7 +97,8 @@ private:
             const PlanePoint to{float(o.at.x - at.x), float(o.at.y - at.y)};
             const float ahead = to.x * into.x + to.y * into.y, back = -(to.x * o.into.x + to.y * o.into.y);
             const float squared = to.x * to.x + to.y * to.y, least = std::min(ahead, back);
-            return least > 1 && 4 * least * least > squared && squared < float(kFarthestPx * kFarthestPx);
+            return least > 1 && 4 * least * least > squared &&
+                   squared < completion_model.outline_farthest_px * completion_model.outline_farthest_px;
         }
     };
 
@@ -130,29 +132,30 @@ private:
     }
     // That arc which what shows before both ends lies on.
     std::optional<Joint> joint_of(int i, int other) const {
-        constexpr float kMostTurned = 1.6f, kAsidePx = 3, kAside = 0.5f, kFarthest = 1.5f;
+        const CompletionModel& model = completion_model;
         const OutlineEnd &a = ends_[std::size_t(i)], &b = ends_[std::size_t(other)];
         const PlanePoint to_b{float(b.at.x - a.at.x), float(b.at.y - a.at.y)};
         const float distance = std::hypot(to_b.x, to_b.y);
         const bool sure = a.told_by > 0 && b.told_by > 0;
-        if (a.told_by > 0 && std::abs(a.arc.aside(to_b)) > kAsidePx + kAside * distance) return {};
+        if (a.told_by > 0 &&
+            std::abs(a.arc.aside(to_b)) > model.outline_aside_px + model.outline_aside * distance)
+            return {};
         std::array<PlanePoint, std::size_t(2) * kTracedPx> points;
         const auto both = of_both(a, b, to_b, points);
-        if (distance >
-            (sure ? std::max(float(kLongestPx), kFarthest * float(both.size())) : float(kLongestPx)))
+        if (distance > (sure ? std::max(model.outline_longest_px, model.outline_gap * float(both.size()))
+                             : model.outline_longest_px))
             return {};
         Arc arc;
         if (!line_or_arc(fitted_line(both, {0, 0}, to_b), fitted_arc(both, {0, 0}, to_b), arc)) return {};
         const float length = arc.along(to_b);
-        if (length <= 1 || std::abs(arc.curvature) * length > kMostTurned) return {};
+        if (length <= 1 || std::abs(arc.curvature) * length > model.outline_turned) return {};
         if (hidden_for(a, {arc}, sure) < length - kLeastTracedPx) return {};
         return Joint{other, arc, length, sure};
     }
     // What was traced next to the gap, about as much on either side of it as it is long.
     static std::span<const PlanePoint> of_both(const OutlineEnd& a, const OutlineEnd& b, PlanePoint to_b,
                                                std::span<PlanePoint> points) {
-        constexpr int kLeastPx = 12;
-        const int most = std::max(kLeastPx, int(std::hypot(to_b.x, to_b.y)));
+        const int most = std::max(int(completion_model.outline_evidence_px), int(std::hypot(to_b.x, to_b.y)));
         std::size_t n = 0;
         for (const PlanePoint& p : evidence(a, most)) points[n++] = p;
         for (const PlanePoint& p : evidence(b, most)) points[n++] = {to_b.x + p.x, to_b.y + p.y};
@@ -173,22 +176,23 @@ private:
     // How far something nearer goes on before it; where it shows again as expected, and is hidden again, from
     // there on. sure: that it goes this way.
     float hidden_for(const OutlineEnd& end, const Course& course, bool sure = false) const {
-        const int most_px = sure ? kFarthestPx : kLongestPx;
+        const int most_px =
+            int(sure ? completion_model.outline_farthest_px : completion_model.outline_longest_px);
         for (int t = 1; t <= most_px; ++t) {
             if (side(end, course.at(float(t) + 0.5f)) == DepthSide::Nearer) continue;
             const int hidden_again = t + shown_for(end, course, t);
             if (t == 1 && !sure && hidden_again > t + kLeastTracedPx) return 0;
-            if (hidden_again == t) return t == 1 ? 0 : float(t) + kMorePx;
+            if (hidden_again == t) return t == 1 ? 0 : float(t) + completion_model.outline_more_px;
             t = hidden_again;
         }
         return float(most_px);
     }
     int shown_for(const OutlineEnd& end, const Course& course, int from) const {
-        constexpr float kOffPx = 1.5f;
+        const float off = completion_model.outline_again_px;
         for (int n = 0; from + n <= kFarthestPx; ++n) {
             const float along = float(from + n) + 0.5f;
-            const DepthSide right = side(end, course.at(along, kOffPx)),
-                            left = side(end, course.at(along, -kOffPx));
+            const DepthSide right = side(end, course.at(along, off)),
+                            left = side(end, course.at(along, -off));
             const DepthSide inside = end.same_is_left ? left : right,
                             outside = end.same_is_left ? right : left;
             if (inside == DepthSide::Nearer && outside == DepthSide::Nearer) return std::max(1, n);
@@ -260,7 +264,7 @@ void HiddenOutlines::sort_into_cells(int width, int height) {
 }
 
 HiddenOutlines::Open HiddenOutlines::open(PixelAt shown, PixelAt hidden, float coc_px) const {
-    constexpr float kSoftPx = 0.5f, kBeforePx = 1.5f;
+    const CompletionModel& model = completion_model;
     Open open;
     if (outlines_.empty()) return open;
     for (const int i : near_[std::size_t(hidden.y / kCell * columns_ + hidden.x / kCell)]) {
@@ -278,8 +282,9 @@ HiddenOutlines::Open HiddenOutlines::open(PixelAt shown, PixelAt hidden, float c
         const float sign = from_left ? 1.0f : -1.0f;
         if (sign * o.arc.right_of(to) <= 0 || sign * o.arc.right_of(from) >= 0) continue;
         const float met = from_left ? o.arc.crossed(to, from) : o.arc.crossed(from, to);
-        if (met < -kBeforePx || met > o.length_px) continue;
-        (own ? open.within : open.unhidden) *= 1 - std::min(1.0f, std::abs(o.arc.aside(to)) / kSoftPx);
+        if (met < -model.outline_before_px || met > o.length_px) continue;
+        (own ? open.within : open.unhidden) *=
+            1 - std::min(1.0f, std::abs(o.arc.aside(to)) / model.barrier_soft_px);
     }
     return open;
 }

@@ -1,5 +1,7 @@
 #include "engine/samples/outlines/outline.h"
 
+#include "engine/samples/completion_model.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -16,20 +18,19 @@ Outline::Outline(View<const float> coc, int x, int y, float threshold_px) {
 
 float Outline::near_share(bool along) const {
     // What the tent takes for the other surface than the pixel's own takes up so much of it.
-    constexpr float kOtherSide = 0.65f;
     const float tent = along ? tent_along() : this->tent(0, 0);
-    return side(0, 0) > 0 ? 1 - kOtherSide * (1 - tent) : kOtherSide * tent;
+    return side(0, 0) > 0 ? 1 - completion_model.other_side * (1 - tent) : completion_model.other_side * tent;
 }
 
 // The nearer surface's part of a tent around (x, y), no farther from the middle than its radius allows.
 float Outline::tent(float x, float y) const {
-    constexpr float kWidth = 1.2f;  // to either side
+    const float width = completion_model.tent_px;
     const int u0 = int(std::floor(x)) - 1, v0 = int(std::floor(y)) - 1;
     float across[4];
-    for (int i = 0; i < 4; ++i) across[i] = std::max(0.0f, kWidth - std::abs(float(u0 + i) - x));
+    for (int i = 0; i < 4; ++i) across[i] = std::max(0.0f, width - std::abs(float(u0 + i) - x));
     float sum = 0, total = 0;
     for (int j = 0; j < 4; ++j) {
-        const float down = std::max(0.0f, kWidth - std::abs(float(v0 + j) - y));
+        const float down = std::max(0.0f, width - std::abs(float(v0 + j) - y));
         if (down <= 0) continue;
         for (int i = 0; i < 4; ++i) {
             const float weight = across[i] * down;
@@ -55,10 +56,10 @@ float Outline::tent_along() const {
         }
     const float across = 0.5f * std::atan2(2 * xy, xx - yy);
     const float along_x = -std::sin(across), along_y = std::cos(across);
-    constexpr int kSteps = 4;  // px
+    const int steps = int(completion_model.along_px);
     float sum = 0, total = 0;
-    for (int t = -kSteps; t <= kSteps; ++t) {
-        const float weight = float(kSteps + 1 - std::abs(t));
+    for (int t = -steps; t <= steps; ++t) {
+        const float weight = float(steps + 1 - std::abs(t));
         // A little less than a whole step keeps the tent within what is known.
         sum += weight * tent(0.99f * float(t) * along_x, 0.99f * float(t) * along_y), total += weight;
     }

@@ -1,13 +1,12 @@
 #include "engine/samples/outlines/outline_end.h"
 
+#include "engine/samples/completion_model.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace petzval::engine {
 namespace {
-
-constexpr float kOffPx = 0.8f;      // at most, of a point
-constexpr float kMeanOffPx = 0.4f;  // sides of pixels along a line are off by 0.29
 
 constexpr std::array<PixelAt, 4> kSteps{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};  // each to the right of the last
 
@@ -69,28 +68,32 @@ private:
 // As much of what was traced as lies on one line or arc tells how it goes on.
 void find_arc(OutlineEnd& end) {
     constexpr int kLeastOfArc = 14, kShort = 10;
-    constexpr float kShortOffPx = 0.55f;  // a corner is no line
     for (const int n : {end.traced_px, 24, 18, kLeastOfArc, 12, 8, kLeastTracedPx}) {
         if (n > end.traced_px || n < kLeastTracedPx) continue;
         const auto points = std::span(end.traced).first(std::size_t(n));
         const PlanePoint into{-points[kLeastTracedPx - 1].x, -points[kLeastTracedPx - 1].y};
         const FittedArc line = fitted_line(points, {0, 0}, into);
         end.arc = line.arc, end.told_by = n;
-        if (n < kLeastOfArc ? line.worst_px <= (n < kShort ? kShortOffPx : kOffPx)
+        if (n < kLeastOfArc ? line.worst_px <= (n < kShort ? completion_model.outline_short_off_px
+                                                           : completion_model.outline_off_px)
                             : line_or_arc(line, fitted_arc(points, {0, 0}, into), end.arc))
             return;
     }
     end.told_by = 0;
 }
 
-bool tells(const FittedArc& fitted) { return fitted.worst_px <= kOffPx && fitted.mean_px <= kMeanOffPx; }
+bool tells(const FittedArc& fitted) {
+    return fitted.worst_px <= completion_model.outline_off_px &&
+           fitted.mean_px <= completion_model.outline_mean_off_px;
+}
 
 }  // namespace
 
 DepthSide depth_side(float coc, float surface) {
     // Less than one_surface() takes: where pixels touch, a step is an outline.
-    constexpr float kStepPx = 0.9f, kStep = 0.05f;
-    if (std::abs(coc - surface) < kStepPx + kStep * std::abs(coc + surface)) return DepthSide::Same;
+    const CompletionModel& model = completion_model;
+    if (std::abs(coc - surface) < model.step_px + model.step_share * std::abs(coc + surface))
+        return DepthSide::Same;
     return coc < surface ? DepthSide::Nearer : DepthSide::Farther;
 }
 
@@ -100,11 +103,12 @@ DepthSide depth_side(View<const float> coc, PixelAt pixel, float surface) {
 }
 
 bool line_or_arc(const FittedArc& line, const FittedArc& arc, Arc& best) {
-    constexpr float kLinePx = 0.34f, kAsWell = 1.5f, kLeastRadiusPx = 4;
+    const CompletionModel& model = completion_model;
     const float line2 = line.mean_px * line.mean_px, arc2 = arc.mean_px * arc.mean_px;
-    const bool is_line = tells(line) && (line.mean_px < kLinePx || line2 < kAsWell * arc2);
+    const bool is_line =
+        tells(line) && (line.mean_px < model.outline_line_px || line2 < model.outline_as_well * arc2);
     best = is_line ? line.arc : arc.arc;
-    return is_line || (tells(arc) && std::abs(arc.arc.curvature) * kLeastRadiusPx <= 1);
+    return is_line || (tells(arc) && std::abs(arc.arc.curvature) * model.outline_tightest_px <= 1);
 }
 
 std::optional<OutlineEnd> outline_end(View<const float> coc, int x, int y) {

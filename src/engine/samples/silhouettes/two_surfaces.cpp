@@ -1,21 +1,17 @@
 #include "engine/samples/silhouettes/two_surfaces.h"
 
+#include "engine/samples/completion_model.h"
+
 #include <array>
 
 namespace petzval::engine {
-namespace {
-
-constexpr float kShapeError = 0.08f;    // of the share that the shape tells
-constexpr float kModelError2 = 0.001f;  // squared, relative: of taking a pixel for a mixture of two colours
-
-}  // namespace
 
 Explained expected(Rgba c, const Guess& near, const Guess& far, float by_shape) {
     constexpr std::size_t kShares = 11;
-    const float least = 1e-6f + kModelError2 * dot(c, c);
+    const float least = 1e-6f + completion_model.model_error2 * dot(c, c);
     std::array<float, kShares> unlikely, variance;  // -2 log of the likelihood, but for the variance
     for (std::size_t i = 0; i < kShares; ++i) {
-        const float s = float(i) / (kShares - 1), off = (s - by_shape) / kShapeError;
+        const float s = float(i) / (kShares - 1), off = (s - by_shape) / completion_model.shape_error;
         variance[i] = s * s * near.variance + (1 - s) * (1 - s) * far.variance + least;
         unlikely[i] = distance2(c, s * near.colour + (1 - s) * far.colour) / variance[i] + off * off;
     }

@@ -1,4 +1,5 @@
 #include "base/parallel.h"
+#include "engine/samples/completion_model.h"
 #include "engine/samples/hidden.h"
 #include "engine/samples/outlines/outline.h"
 #include "engine/samples/silhouettes/two_surfaces.h"
@@ -68,9 +69,8 @@ struct Sides {
 // that shows the farther of these, at `own`, lies one half of their step behind the threshold. A quarter of
 // the step leaves room for the slope of that surface.
 float behind_both(float own, float threshold) {
-    constexpr float kOfHalfStep = 0.5f;
     if (own <= threshold) return std::numeric_limits<float>::infinity();
-    return own + kOfHalfStep * (own - threshold);
+    return own + completion_model.third_surface * (own - threshold);
 }
 
 Sides look_around(const LitPicture& picture, View<const float> coc, View<const unsigned char> touching, int x,
@@ -105,9 +105,10 @@ Sides look_around(const LitPicture& picture, View<const float> coc, View<const u
 // side. Those that lamps light count only where there are no others: some of that light is left in them.
 Guess least_like(Rgba far_colour, const LitPicture& picture, View<const float> coc,
                  View<const unsigned char> touching, int x, int y, float threshold) {
+    const int reach = int(completion_model.thin_within_px);
     Pool unlit, lit;
-    for (int v = std::max(0, y - 2); v <= std::min(coc.height() - 1, y + 2); ++v)
-        for (int u = std::max(0, x - 2); u <= std::min(coc.width() - 1, x + 2); ++u) {
+    for (int v = std::max(0, y - reach); v <= std::min(coc.height() - 1, y + reach); ++v)
+        for (int u = std::max(0, x - reach); u <= std::min(coc.width() - 1, x + reach); ++u) {
             if (coc(u, v) > threshold) continue;
             const Rgba colour = picture.dim(u, v);
             ((touching(u, v) & kLit) != 0 ? lit : unlit)
@@ -137,26 +138,25 @@ float alike(Rgba a, Rgba b) {
 // How surely a lamp that lights the nearer side belongs to the surface of its brightest pixel: one that
 // lights only a few pixels of that, and none that touches no silhouette, shows past its edge.
 float share_of_surface(const std::vector<LitPixel>& nearer) {
-    constexpr float kOneSurfacePx = 0.9f, kFewLit = 0.15f, kManyLit = 0.5f;
+    const float few_lit = completion_model.few_lit, many_lit = completion_model.many_lit;
     const auto brightest = std::max_element(nearer.begin(), nearer.end(),
                                             [](const auto& a, const auto& b) { return a.light < b.light; });
     if (brightest == nearer.end()) return 1;
     int pixels = 0, lit = 0;
     for (const LitPixel& p : nearer) {
-        if (std::abs(p.coc_px - brightest->coc_px) > kOneSurfacePx) continue;
+        if (std::abs(p.coc_px - brightest->coc_px) > completion_model.step_px) continue;
         if (p.light > 0 && p.clean) return 1;
         ++pixels, lit += p.light > 0;
     }
-    return std::clamp((float(lit) / float(pixels) - kFewLit) / (kManyLit - kFewLit), kFewLit, 1.0f);
+    return std::clamp((float(lit) / float(pixels) - few_lit) / (many_lit - few_lit), few_lit, 1.0f);
 }
 
 // The side whose pixels nearby are lit brighter, in the pixel's own colour, has the lamp. far_coc: of the
 // farther side.
 LampsBehind find_lamps(const LitPicture& picture, View<const float> coc, View<const unsigned char> touching,
                        int x, int y, float threshold, float far_coc) {
-    constexpr int kLampReach = 2;
-    const Rect window =
-        Rect{x - kLampReach, y - kLampReach, x + kLampReach + 1, y + kLampReach + 1}.intersected(coc.rect());
+    const int reach = int(completion_model.thin_within_px);
+    const Rect window = Rect{x - reach, y - reach, x + reach + 1, y + reach + 1}.intersected(coc.rect());
     Rgba own = picture.colour(x, y) - picture.dim(x, y);
     if (own == Rgba{}) own = picture.colour(x, y);
     float near = 0, far = 0;
@@ -173,19 +173,20 @@ LampsBehind find_lamps(const LitPicture& picture, View<const float> coc, View<co
             }
         }
     // One behind may light no pixel but those of the edge that it shows past.
-    constexpr float kUnseen = 0.33f;
     const float sure = share_of_surface(nearer);
-    far = std::max(far, kUnseen * (1 - sure) * near);
+    far = std::max(far, completion_model.unseen_lamp * (1 - sure) * near);
     near *= sure;
-    const float t = std::clamp((far / std::max(1e-9f, near + far) - 0.35f) / 0.3f, 0.0f, 1.0f);
+    const float t = std::clamp(
+        (far / std::max(1e-9f, near + far) - completion_model.lamp_side) / completion_model.lamp_side_width,
+        0.0f, 1.0f);
     return {t * t * (3 - 2 * t), far_coc};
 }
 
 // Where lamps behind light a pixel, what the nearer surface's own colour does not explain is theirs, too.
 void give_to_lamps(Mixture& m) {
-    constexpr float kAsUsual = 3;  // times its colour around
     if (m.lamps_behind <= 0) return;
-    const Rgba more = light_only(m.near_colour - (kAsUsual * m.near_share) * m.near_clean);
+    const Rgba more =
+        light_only(m.near_colour - (completion_model.lamp_excess * m.near_share) * m.near_clean);
     const Rgba given = m.lamps_behind * Rgba{more.r, more.g, more.b, 0};
     m.near_colour -= given, m.far_light += given;
 }
@@ -219,7 +220,7 @@ Mixture taken_apart(const LitPicture& picture, View<const float> coc, View<const
     const float far_share = 1 - m.near_share;
     m.near_colour = light_only(c - far_share * m.far_colour);
     // What is left of a dark pixel is all that either may have.
-    if (far_share > 0.05f) {
+    if (far_share > completion_model.least_far_share) {
         const Rgba left = light_only((c - m.near_colour) * (1 / far_share));
         m.far_colour = {left.r, left.g, left.b, far.colour.a};
     }

@@ -1,6 +1,7 @@
 #include "engine/samples/textures/hidden_textures.h"
 
 #include "base/parallel.h"
+#include "engine/samples/completion_model.h"
 #include "engine/samples/nearest_pixel.h"
 
 #include <algorithm>
@@ -9,8 +10,6 @@ namespace petzval::engine {
 namespace {
 
 constexpr int kScale = 2;  // pixels on a side of one of details
-// Correlations: up to where nothing, and from where all of a texture is known.
-constexpr float kLeastAlike = 0.7f, kAlike = 0.95f;
 
 }  // namespace
 
@@ -27,7 +26,9 @@ HiddenTextures::HiddenTextures(const KnownSurfaces& known, const Mixtures& mixtu
         mixtures.for_each_in_row(y, [&](int x, const Mixture& m) {
             int& tile = tile_at_(x / kTile, y / kTile);
             // (What is sharp hides nothing that is as sharp from a lens.)
-            if (tile >= 0 || m.near_coc_px > -kSharpPx || std::abs(m.far_coc_px) >= kSharpPx) return;
+            if (tile >= 0 || m.near_coc_px > -completion_model.texture_sharp_px ||
+                std::abs(m.far_coc_px) >= completion_model.texture_sharp_px)
+                return;
             tile = int(tiles_.size());
             tiles_.push_back({x / kTile * kTile, y / kTile * kTile, {}});
         });
@@ -139,7 +140,7 @@ HiddenTextures::Moved HiddenTextures::moved_to(int x, int y, int tile, float coc
     moved.tile = tile, moved.coc_px = coc_px;
     if (texture.grain > 0) move_grain(x, y, moved);
     for (const Texture::Offset& o : texture.repeats) {
-        if (o.alike <= kLeastAlike) break;
+        if (o.alike <= completion_model.texture_least) break;
         const int dx = nearest_pixel(o.x), dy = nearest_pixel(o.y);
         if (!shows(x + dx, y + dy, coc_px)) continue;
         moved.alike = o.alike, moved.dx = dx, moved.dy = dy;
@@ -151,14 +152,14 @@ HiddenTextures::Moved HiddenTextures::moved_to(int x, int y, int tile, float coc
 
 const HiddenTextures::Moved& HiddenTextures::Point::moved_to_here(int tile, float coc_px) {
     Moved& moved = found_[std::size_t(tile) % found_.size()];
-    if (moved.tile != tile || std::abs(moved.coc_px - coc_px) > kOnePx / 2)
+    if (moved.tile != tile || std::abs(moved.coc_px - coc_px) > completion_model.texture_one_px / 2)
         moved = textures_.moved_to(x_, y_, tile, coc_px);
     return moved;
 }
 
 Rgba HiddenTextures::Point::going_on(KnownSurfaces::Place shown, Rgba otherwise) {
-    constexpr float kRestPx = 4;  // how far what a repeat does not explain goes on
-    const float in_focus = std::clamp(kSharpPx - std::abs(shown.coc_px), 0.0f, 1.0f);
+    const float rest_px = completion_model.texture_rest_px, least = completion_model.texture_least;
+    const float in_focus = std::clamp(completion_model.texture_sharp_px - std::abs(shown.coc_px), 0.0f, 1.0f);
     const HiddenTextures& all = textures_;
     if (all.tiles_.empty() || in_focus <= 0) return otherwise;
     const int tile = all.tile_at_(shown.x / kTile, shown.y / kTile);
@@ -172,11 +173,12 @@ Rgba HiddenTextures::Point::going_on(KnownSurfaces::Place shown, Rgba otherwise)
     Rgba colour = around + moved.detail;
     const float distance = std::hypot(float(x_ - shown.x), float(y_ - shown.y));
     const int u = shown.x + moved.dx, v = shown.y + moved.dy;
-    if (distance < 4 * kRestPx && all.shows(u, v, shown.coc_px)) {
+    if (distance < 4 * rest_px && all.shows(u, v, shown.coc_px)) {
         const Rgba rest = all.known_.colour(shown.x, shown.y) - around - all.detail_of_pixel(u, v);
-        colour += std::exp(-distance / kRestPx) * rest;
+        colour += std::exp(-distance / rest_px) * rest;
     }
-    const float told = in_focus * std::min(1.0f, (moved.alike - kLeastAlike) / (kAlike - kLeastAlike));
+    const float told =
+        in_focus * std::min(1.0f, (moved.alike - least) / (completion_model.texture_most - least));
     return (1 - told) * otherwise + told * light_only(colour);
 }
 

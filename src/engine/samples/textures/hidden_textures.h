@@ -5,6 +5,7 @@
 // another, goes on as any other piece of it.
 #pragma once
 
+#include "engine/samples/completion_model.h"
 #include "engine/samples/known_surfaces.h"
 #include "engine/samples/textures/repeats.h"
 
@@ -45,10 +46,8 @@ public:
     };
 
 private:
-    static constexpr int kTile = 32;       // pixels on a side; silhouettes in it share a texture
-    static constexpr int kBlock = 8;       // pixels on a side that have one mean
-    static constexpr float kSharpPx = 3;   // radius; what is blurred more shows no texture
-    static constexpr float kOnePx = 0.6f;  // of one surface; what hides something is nearer by more
+    static constexpr int kTile = 32;  // pixels on a side; silhouettes in it share a texture
+    static constexpr int kBlock = 8;  // pixels on a side that have one mean
 
     // The sum of the sharp pixels of a block, or of some blocks.
     struct Sum {
@@ -68,10 +67,12 @@ private:
     Texture texture_around(const Tile& tile) const;
     float detail(int x, int y) const;
     bool in_sight(const Rect& block) const;
-    bool sharp(int x, int y) const { return std::abs(known_.radii()(x, y)) < kSharpPx; }
+    bool sharp(int x, int y) const {
+        return std::abs(known_.radii()(x, y)) < completion_model.texture_sharp_px;
+    }
     bool shows(int x, int y, float coc_px) const {
-        return known_.radii().rect().contains(x, y) && std::abs(known_.radii()(x, y) - coc_px) < kOnePx &&
-               sharp(x, y);
+        return known_.radii().rect().contains(x, y) &&
+               std::abs(known_.radii()(x, y) - coc_px) < completion_model.texture_one_px && sharp(x, y);
     }
     Rgba detail_of_pixel(int x, int y) const { return known_.colour(x, y) - mean(x, y); }
     Rgba mean(float x, float y) const;

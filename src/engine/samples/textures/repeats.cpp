@@ -1,5 +1,7 @@
 #include "engine/samples/textures/repeats.h"
 
+#include "engine/samples/completion_model.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -12,9 +14,8 @@ constexpr int kBeyond = 16;  // as many offsets are summed at once
 class Correlation {
 public:
     explicit Correlation(const Details& piece) : farthest_(piece.farthest), pairs_(pairs_of(piece)) {
-        constexpr float kShare = 0.45f;  // of those that could be, known: fewer pairs agree by chance
         most_ = at(0, 0).count;
-        least_ = kShare * most_;
+        least_ = completion_model.texture_pairs * most_;
     }
     // -1 where too little is known, and beyond the farthest.
     float operator()(int x, int y) const {
@@ -73,7 +74,7 @@ float within(double value, double to) { return float(std::clamp(2 - value / to, 
 // nor of lone marks (its kurtosis is near that of a normal distribution).
 float grain_of(const Details& piece) {
     constexpr int kBlock = 6, kLeastBlocks = 4;
-    constexpr double kRough = 0.05, kUneven = 0.1, kLeastKurtosis = 2, kMostKurtosis = 4;
+    const CompletionModel& model = completion_model;
     const int begin = piece.farthest, end = piece.farthest + piece.inner;
     double blocks = 0, means = 0, variances = 0, squares = 0, second = 0, fourth = 0;
     for (int by = begin; by + kBlock <= end; by += kBlock)
@@ -94,12 +95,10 @@ float grain_of(const Details& piece) {
     if (blocks < kLeastBlocks || variances <= 0) return 0;
     const double kurtosis = fourth * blocks * kBlock * kBlock / (second * second);
     const double rough = means / (means + variances), uneven = blocks * squares / (variances * variances) - 1;
-    // Of what cannot be told its full contrast costs twice the error that none does, and three quarters look
-    // whole.
-    constexpr float kContrast = 0.75f;
-    return kContrast * within(rough, kRough) * within(uneven, kUneven) *
-           within(kurtosis - kMostKurtosis + 1, 1) *
-           float(std::clamp((kurtosis - kLeastKurtosis) / 0.3, 0.0, 1.0));
+    return model.grain_contrast * within(rough, double(model.grain_rough) / 100) *
+           within(uneven, double(model.grain_uneven) / 100) *
+           within(kurtosis - double(model.grain_kurtosis_most) + 1, 1) *
+           float(std::clamp((kurtosis - double(model.grain_kurtosis_least)) / 0.3, 0.0, 1.0));
 }
 
 }  // namespace
@@ -113,13 +112,14 @@ Details::Details(int inner_, int farthest_)
       known(values.size()) {}
 
 Texture texture_of(const Details& piece) {
-    constexpr float kLeastHeld = 16, kLeastContrast = 1e-5f;  // a third of a hundredth
+    constexpr float kLeastHeld = 16;
     Texture texture{};
     const Correlation alike(piece);
-    if (alike.held() < kLeastHeld || alike.contrast() < kLeastContrast) return texture;
+    if (alike.held() < kLeastHeld || alike.contrast() < completion_model.texture_contrast) return texture;
     find_repeats(alike, piece.farthest, texture);
-    constexpr float kTells = 0.7f;  // a correlation; what repeats is no grain
-    texture.grain = std::clamp(5 * (kTells - texture.repeats[0].alike), 0.0f, 1.0f) * grain_of(piece);
+    // What repeats is no grain.
+    texture.grain = std::clamp(5 * (completion_model.texture_least - texture.repeats[0].alike), 0.0f, 1.0f) *
+                    grain_of(piece);
     return texture;
 }
 

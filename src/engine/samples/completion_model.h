@@ -1,0 +1,38 @@
+// All numbers by which hidden surfaces are estimated, each with its unit, its range and its reason.
+//
+// `./dev bench completion --rules` halves and doubles each of them and switches it off, and prints what that
+// changes. Sizes of grids stand where they are used: they change the cost alone.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+namespace petzval::engine {
+
+struct CompletionModel {
+#define PETZVAL_NUMBER(name, value, ...) float name = value;
+#include "engine/samples/completion_numbers.inc"
+#undef PETZVAL_NUMBER
+};
+
+// The program estimates with these. Only the bench assigns them, before it draws anything.
+inline CompletionModel completion_model;
+
+struct CompletionNumber {
+    const char* name;
+    float CompletionModel::*value;
+    float least, most;  // between these the estimate works as described
+    float off;          // NaN if the estimate cannot do without it
+    const char *unit, *reason;
+};
+
+inline std::vector<CompletionNumber> completion_numbers() {
+    constexpr float kNone = std::numeric_limits<float>::quiet_NaN(), kNever = 1e9f;
+#define PETZVAL_NUMBER(name, value, ...) {#name, &CompletionModel::name, __VA_ARGS__},
+    return {
+#include "engine/samples/completion_numbers.inc"
+    };
+#undef PETZVAL_NUMBER
+}
+
+}  // namespace petzval::engine
