@@ -123,6 +123,16 @@ struct Blur {
     std::size_t beside_bytes = 0;
 };
 
+// Given pictures that the engine passes over.
+void note_passed_over(const Blur& blur, std::vector<std::string>& warnings) {
+    if (!blur.engine.looks_at_front_alone) return;
+    const std::string who = std::string("job.engine ") + blur.engine.name;
+    const Rendered& given = blur.request.rendered;
+    if (given.deep && !given.deep->empty())
+        warnings.push_back(who + " looks at the front view of the deep picture alone");
+    if (given.behind && !given.behind->empty()) warnings.push_back("shot.behind has no effect with " + who);
+}
+
 // Fills in a report besides its pictures.
 void describe(const Blur& blur, const PreparedFrame& frame, const NotingDevice& drawing, double prepared_s,
               double lens_ready_s, engine::Output& output, DefocusReport& report) {
@@ -138,6 +148,7 @@ void describe(const Blur& blur, const PreparedFrame& frame, const NotingDevice& 
     report.stages.insert(report.stages.end(), output.stages.begin(), output.stages.end());
     report.warnings = frame.warnings;
     report.warnings.insert(report.warnings.end(), output.warnings.begin(), output.warnings.end());
+    note_passed_over(blur, report.warnings);
     const FrameRequest& request = blur.request;
     if (const int missing = missing_beyond_px(request.rendered.place, request.look.lens.distortion);
         missing > 0)

@@ -17,10 +17,10 @@ std::span<const Engine> engines() {
         {"gather", "previews: every pixel collects from a few sizes of the lens's kernel, at half resolution",
          run_gather, false, Layers::OneByOne},
         {"gaussian", "drafts: the sharp picture mixed with two Gaussian blurs; no bokeh, the fastest",
-         run_gaussian, false, Layers::OneByOne},
+         run_gaussian, false, Layers::OneByOne, true},
         {"sprites", "lights as the lens's own kernels, found or given, over gather or gaussian", run_sprites},
         {"realtime", "as games draw it, on a GPU alone: what hosts embed, near and far at half resolution",
-         run_realtime, false, Layers::OneByOne},
+         run_realtime, false, Layers::OneByOne, true},
         {"reference", "the definition of a correct result, traced through the lens; slow", run_reference,
          true},
     };

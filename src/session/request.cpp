@@ -42,6 +42,21 @@ Look look_of(const DefocusJob& job) {
     return look;
 }
 
+std::vector<std::string> left_out_of_blur(const Look& look) {
+    const Look usual;
+    std::vector<std::string> warnings;
+    const auto note = [&](bool is_given, const char* field) {
+        if (!is_given) return;
+        std::string line = "look.";
+        line.append(field).append(" is not used: this is the blur alone; Session::take() adds light");
+        warnings.push_back(line);
+    };
+    note(look.expand_highlights, "expand_highlights");
+    note(look.vignetting, "vignetting");
+    note(!(look.glare == usual.glare), "glare");
+    return warnings;
+}
+
 std::vector<std::string> not_used_of(const DefocusJob& job, const Look& look) {
     const Look usual, own = look_of(job);
     std::vector<std::string> warnings;
@@ -74,9 +89,14 @@ std::vector<std::string> not_used_of(const DefocusJob& job, const SessionSetting
         line.append(field).append(" is not used: the session's own stands");
         warnings.push_back(line);
     };
+    const DefocusJob usual;
+    note(job.threads > 0 && job.threads != settings.threads, "threads");
     note(job.max_memory_bytes > 0 && job.max_memory_bytes != settings.max_memory_bytes, "max_memory_bytes");
     note(!job.kernel_cache_folder.empty() && job.kernel_cache_folder != settings.kernel_cache_folder,
          "kernel_cache_folder");
+    note(job.kernel_cache_bytes != usual.kernel_cache_bytes &&
+             job.kernel_cache_bytes != settings.kernel_cache_bytes,
+         "kernel_cache_bytes");
     note(job.workers && job.workers != settings.workers.get(), "workers");
     if (job.progress && !control.progress)
         warnings.emplace_back(

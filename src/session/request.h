@@ -33,6 +33,8 @@ inline Error invalid(const std::string& message) { return {ErrorCode::InvalidArg
 
 // The choices of a job.
 Look look_of(const DefocusJob& job);
+// A line for each field of a look that is light, and no part of a blur alone.
+std::vector<std::string> left_out_of_blur(const Look& look);
 // A line for each field of a job that was given and is not used: a look replaces the choices of the job,
 // and a session's settings replace its own.
 std::vector<std::string> not_used_of(const DefocusJob& job, const Look& look);

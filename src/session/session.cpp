@@ -47,10 +47,12 @@ Result<DefocusReport> Session::defocus(Rendered rendered, Look look, const Contr
     if (control.codes)
         return Error{ErrorCode::InvalidArgument,
                      "control.codes are of whole frames, as Session::take() makes them"};
+    std::vector<std::string> unused = left_out_of_blur(look);
     look.expand_highlights = false;
     look.vignetting = false;
     look.glare = {};
-    auto frame = FrameStages::begin_checked(*this, std::move(rendered), look, control, std::move(spare), {});
+    auto frame = FrameStages::begin_checked(*this, std::move(rendered), look, control, std::move(spare),
+                                            std::move(unused));
     if (!frame) return frame.error();
     if (const Status done = frame->blur(); !done) return done.error();
     return std::move(*frame).report();

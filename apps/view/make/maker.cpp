@@ -462,6 +462,7 @@ Result<DefocusReport> Maker::shown(const Wish& wish, const Rendered& rendered, c
         return report;
     }
     Look chosen = look;
+    chosen.vignetting = chosen.expand_highlights = false, chosen.glare = {};
     Control shown = control;
     if (is_view(wish.shown)) {
         if (const auto scatter = parse<ScatterView>(wish.shown)) shown.view = *scatter;

@@ -154,8 +154,6 @@ Result<Output> run_realtime(const EngineView& input, Spare) {
     if (!input.services.progress->advance(1)) return Error{ErrorCode::Cancelled, "cancelled"};
     output.stages = {
         {"realtime", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()}};
-    if (!input.samples.deep.empty())
-        output.warnings.emplace_back("job.engine realtime looks at the front view alone");
     if (input.lens.level(0).varies_over_field())
         output.warnings.emplace_back(
             "job.engine realtime draws the lens as it is in the middle of the frame");

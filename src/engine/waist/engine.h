@@ -38,6 +38,7 @@ struct Engine {
     Result<Output> (*run)(const EngineView&, Spare);
     bool takes_holdout = false;
     Layers layers = Layers::None;
+    bool looks_at_front_alone = false;  // deep samples and hidden layers have no effect
 };
 
 }  // namespace petzval::engine
