@@ -1,4 +1,5 @@
-"""Fails if a room includes a header of a room it may not know. The table IS the architecture.
+"""Fails if a room includes a header of a room it may not know, or if rooms include each other in a circle, plans counted.
+The table IS the architecture.
 
 Usage: check_layers.py [repository root]. Prints each violation as FILE:LINE; exit status 1 if there is any.
 """
@@ -59,7 +60,7 @@ TESTS = {
     "kernel/draw": {"kernel/lenses"},
     "kernel/keep": {"kernel/lenses"},
     "engine/gather": {"kernel/lenses"},
-    "glare": {"device/cpu"},
+    "device/cpu": {"glare", "kernel/draw", "kernel/lenses"},
     "session/rendered": {"lens_facts", "session"},
     "session": {"lens_facts"},
 }
@@ -168,7 +169,34 @@ def room_of(included):
     return max(rooms, key=len, default="(none)" if family else None)
 
 
+def code_by_room(root):
+    """{room: rooms whose headers its code includes}, tests left out."""
+    seen = {}
+    for path in sorted((root / "src").rglob("*.[hc]*")):
+        room = room_of(path.relative_to(root / "src").as_posix())
+        if room and not path.name.endswith("_test.cpp"):
+            seen.setdefault(room, set()).update({room_of(name) for _, name in includes(path)} - {room, None})
+    return seen
+
+
+def circle(graph):
+    """Rooms that include each other, the first one again at the end; [] where there are none."""
+    done = set()
+
+    def search(room, way):
+        if room in way:
+            return way[way.index(room):] + [room]
+        if room in done:
+            return []
+        done.add(room)
+        return next(filter(None, (search(other, way + [room]) for other in sorted(graph.get(room, ())))), [])
+    return next(filter(None, (search(room, []) for room in sorted(graph))), [])
+
+
 def violations(root):
+    round_trip = circle(code_by_room(root))
+    if round_trip:
+        yield "rooms include each other: " + " -> ".join(round_trip)
     files = [p for d in ("include", "src", "apps", "plugins") for p in sorted((root / d).rglob("*.[hc]*"))]
     for path in files:
         name = path.relative_to(root).as_posix()

@@ -60,6 +60,12 @@ class Checks(unittest.TestCase):
         self.assert_found("check_layers.py", {"src/kernel/keep/bank.cpp": line}, "kernel/keep must not include")
         self.assert_clean("check_layers.py", {"src/kernel/keep/bank_test.cpp": line})
 
+    def test_rooms_that_include_each_other_are_found(self):
+        plan = {"src/device/cpu/a.cpp": '#include "glare/plan.h"\n', "src/glare/plan.h": '#include "device/a.h"\n'}
+        self.assert_clean("check_layers.py", plan)
+        self.assert_found("check_layers.py", {**plan, "src/glare/a.cpp": '#include "device/cpu/a.h"\n'},
+                          "rooms include each other: device/cpu -> glare -> device/cpu")
+
     def test_a_public_header_of_a_higher_room_is_found(self):
         self.assert_found("check_layers.py", {"src/image/a.cpp": '#include "petzval/defocus.h"\n'}, "petzval/defocus.h")
 
