@@ -8,6 +8,7 @@
 #include "petzval/result.h"
 #include "petzval/workers.h"
 
+#include <array>
 #include <functional>
 #include <span>
 #include <string>
@@ -106,5 +107,34 @@ struct BokehVolume {
 // Errors: those of lens_point_spread(); InvalidArgument for settings out of range.
 PETZVAL_API Result<BokehVolume> bokeh_volume(const Lens& lens, const LensMount& mount,
                                              const BokehVolumeSettings& settings = {});
+
+// Discs by place in the frame and by radius, as one texture for shaders (docs/reference/lens-atlas.md): one
+// row of tiles per zone, one tile per radius.
+struct LensAtlasSettings {
+    double largest_coc_px = 64;                 // radii from minus this to plus this, denser near focus
+    int zones = 5;                              // rings of the frame from its middle to its corners, 1…64
+    std::function<bool(double)> progress = {};  // share done 0…1; false cancels
+};
+
+inline constexpr int kAtlasTileSide = 31, kAtlasRadii = 14;
+
+struct LensAtlas {
+    // Light in 32 bits, nine of each colour and five of the exponent that they share (Vulkan's
+    // E5B9G9R9_UFLOAT_PACK32, WebGL's RGB9_E5), little-endian, row by row. A texel holds light times the
+    // number of a tile's texels.
+    std::string texels;
+    int width = 0, height = 0;  // texels
+    std::vector<double> zones;  // places, in half diagonals from the middle
+    std::vector<double> radii_px;
+    // By zone, then radius: side of the square that the tile covers, pixels; sum of the stored r, g and b.
+    std::vector<std::vector<double>> sides_px;
+    std::vector<std::vector<std::array<double, 3>>> sums;
+    std::string lens;
+};
+
+// A tile grows until at most 2 % of the light falls outside. Errors: those of lens_point_spread();
+// InvalidArgument for settings out of range; Cancelled.
+PETZVAL_API Result<LensAtlas> lens_atlas(const Lens& lens, const LensMount& mount,
+                                         const LensAtlasSettings& settings = {});
 
 }  // namespace petzval

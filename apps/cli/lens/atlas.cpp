@@ -10,16 +10,11 @@
 #include "output.h"
 #include "verbs.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 
 namespace petzval::cli {
 namespace {
-
-constexpr int kSide = 31, kRadii = 14;  // of a tile, texels; of a zone, half of them in front of focus
 
 struct AtlasFlags : MountFlags {
     std::string folder;
@@ -31,121 +26,46 @@ struct AtlasFlags : MountFlags {
     std::string file(const char* name) const { return (std::filesystem::path(folder) / name).string(); }
 };
 
-// Light in 32 bits: nine of each colour, five of the exponent that they share, as Vulkan's
-// E5B9G9R9_UFLOAT_PACK32 and WebGL's RGB9_E5 have it. Requires: r, g, b are finite. Negative light becomes 0.
-class SharedExponent {
-public:
-    explicit SharedExponent(const Rgba& light) {
-        std::array<float, 3> colour = {light.r, light.g, light.b};
-        for (float& c : colour) c = std::clamp(c, 0.0f, 65408.0f);
-        const float most = std::max({colour[0], colour[1], colour[2]});
-        int exponent = std::max(-15, most > 0 ? std::ilogb(most) + 1 : -15);
-        if (std::lround(std::ldexp(most, 9 - exponent)) > 511) ++exponent;
-        for (int i = 0; i < 3; ++i) {
-            const auto mantissa =
-                std::uint32_t(std::lround(std::ldexp(colour[std::size_t(i)], 9 - exponent)));
-            bits_ |= mantissa << (9 * i);
-            stored_[std::size_t(i)] = std::ldexp(double(mantissa), exponent - 9);
-        }
-        bits_ |= std::uint32_t(exponent + 15) << 27;
-    }
-    std::uint32_t bits() const { return bits_; }
-    const std::array<double, 3>& stored() const { return stored_; }
-
-private:
-    std::uint32_t bits_ = 0;
-    std::array<double, 3> stored_ = {};
-};
-
-struct Atlas {
-    std::string texels;             // little-endian words, row by row
-    Json sides_px = Json::array();  // by zone, then radius: side of the square that a tile covers, pixels
-    Json sums = Json::array();      // by zone, then radius: r, g, b of the disc
-    std::vector<double> radii_px, places;
-    std::string lens;
-};
-
-// Stores a disc as the tile of its zone and radius; texels hold light times their number, so that an even
-// disc would be 1 everywhere. Returns the sums of the stored red, green and blue.
-Json store(const Picture& disc, int zone, int radius, std::string& texels) {
-    std::array<double, 3> sums = {};
-    constexpr double kTexels = kSide * kSide;
-    for (int y = 0; y < kSide; ++y)
-        for (int x = 0; x < kSide; ++x) {
-            const SharedExponent light(float(kTexels) * disc(x, y));
-            for (std::size_t i = 0; i < 3; ++i) sums[i] += light.stored()[i] / kTexels;
-            const int at = (zone * kSide + y) * kRadii * kSide + radius * kSide + x;
-            for (int byte = 0; byte < 4; ++byte)
-                texels[std::size_t(4 * at + byte)] = char(light.bits() >> (8 * byte) & 255u);
-        }
-    return {number(sums[0]), number(sums[1]), number(sums[2])};
-}
-
-// The disc on a picture of so many more pixels that `side_px` of the camera's picture fill a tile.
-Result<LensDisc> tile_of(const MountedLens& mounted, double coc_px, double place, double side_px) {
-    LensMount fine = mounted.mount;
-    const double finer = kSide / side_px;
-    fine.width_px = std::max(1, int(std::lround(fine.width_px * finer)));
-    fine.height_px = std::max(1, int(std::lround(fine.height_px * finer)));
-    return lens_point_spread(mounted.lens, fine, coc_px * fine.width_px / mounted.mount.width_px, place, 0,
-                             kSide);
-}
-
-// A tile grows until at most this share of the light falls outside.
-constexpr double kMostLost = 0.02;
-
-Status add_tile(const MountedLens& mounted, double place, int zone, int radius, Atlas& atlas) {
-    const double coc_px = atlas.radii_px[std::size_t(radius)];
-    double side_px = std::max(4.0, std::abs(coc_px) / 0.35);
-    auto disc = tile_of(mounted, coc_px, place, side_px);
-    while (disc && disc->lost_share > kMostLost && side_px < kLargestDiscPx / 2.0)
-        disc = tile_of(mounted, coc_px, place, side_px *= 1.3);
-    if (!disc) return disc.error();
-    atlas.lens = disc->lens;
-    atlas.sides_px.back().push_back(number(side_px));
-    atlas.sums.back().push_back(store(disc->weights, zone, radius, atlas.texels));
-    return Done{};
-}
-
-Result<Atlas> make_atlas(const MountedLens& mounted, const AtlasFlags& flags) {
-    Atlas atlas;
-    atlas.texels.resize(std::size_t(4 * flags.zones * kSide * kRadii * kSide));
-    for (int radius = 0; radius < kRadii; ++radius) {
-        const double t = 2.0 * radius / (kRadii - 1) - 1;
-        atlas.radii_px.push_back(flags.largest_coc_px * t * std::abs(t));
-    }
+Result<LensAtlas> make_atlas(const MountedLens& mounted, const AtlasFlags& flags) {
     ProgressLine progress(flags.run.progress, flags.run.quiet, "lens atlas");
-    for (int zone = 0; zone < flags.zones; ++zone) {
-        atlas.places.push_back(flags.zones > 1 ? double(zone) / (flags.zones - 1) : 0);
-        atlas.sides_px.push_back(Json::array());
-        atlas.sums.push_back(Json::array());
-        for (int radius = 0; radius < kRadii; ++radius) {
-            if (interrupted_by() != 0 || !progress((zone + double(radius) / kRadii) / flags.zones))
-                return Error{ErrorCode::Cancelled, "stopped"};
-            if (Status done = add_tile(mounted, atlas.places.back(), zone, radius, atlas); !done)
-                return done.error();
-        }
-    }
-    progress(1);
-    return atlas;
+    LensAtlasSettings settings{flags.largest_coc_px, flags.zones, {}};
+    settings.progress = [&](double share) { return interrupted_by() == 0 && progress(share); };
+    return lens_atlas(mounted.lens, mounted.mount, settings);
 }
 
-Json header_of(const Atlas& atlas, const MountedLens& mounted, const AtlasFlags& flags) {
+// By zone, then radius.
+Json sides_json(const LensAtlas& atlas) {
+    Json all = Json::array();
+    for (const auto& zone : atlas.sides_px) {
+        Json& row = all.emplace_back(Json::array());
+        for (const double side_px : zone) row.push_back(number(side_px));
+    }
+    return all;
+}
+
+Json sums_json(const LensAtlas& atlas) {
+    Json all = Json::array();
+    for (const auto& zone : atlas.sums) {
+        Json& row = all.emplace_back(Json::array());
+        for (const auto& [r, g, b] : zone) row.push_back({number(r), number(g), number(b)});
+    }
+    return all;
+}
+
+Json header_of(const LensAtlas& atlas, const MountedLens& mounted, const AtlasFlags& flags) {
     Json header;
     header["format"] = "petzval lens atlas";
     header["version"] = 1;
     header["name"] = flags.lens_name;
     header["lens"] = atlas.lens;
     header["camera"] = mount_json(mounted.mount);
-    header["texels"] = {{"file", "atlas.bin"},
-                        {"type", "rgb9e5"},
-                        {"width", kRadii * kSide},
-                        {"height", flags.zones * kSide}};
-    header["tile"] = {{"side", kSide}};
-    header["zones"] = atlas.places;
+    header["texels"] = {
+        {"file", "atlas.bin"}, {"type", "rgb9e5"}, {"width", atlas.width}, {"height", atlas.height}};
+    header["tile"] = {{"side", kAtlasTileSide}};
+    header["zones"] = atlas.zones;
     header["radii_px"] = atlas.radii_px;
-    header["sides_px"] = atlas.sides_px;
-    header["sums"] = atlas.sums;
+    header["sides_px"] = sides_json(atlas);
+    header["sums"] = sums_json(atlas);
     return header;
 }
 

@@ -1,0 +1,116 @@
+// Discs of a lens as tiles of one texture.
+#include "petzval/lens_kernel.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+namespace petzval {
+namespace {
+
+constexpr int kSide = kAtlasTileSide, kRadii = kAtlasRadii;
+
+// Light in 32 bits: nine of each colour, five of the exponent that they share, as Vulkan's
+// E5B9G9R9_UFLOAT_PACK32 and WebGL's RGB9_E5 have it. Requires: r, g, b are finite. Negative light becomes 0.
+class SharedExponent {
+public:
+    explicit SharedExponent(const Rgba& light) {
+        std::array<float, 3> colour = {light.r, light.g, light.b};
+        for (float& c : colour) c = std::clamp(c, 0.0f, 65408.0f);
+        const float most = std::max({colour[0], colour[1], colour[2]});
+        int exponent = std::max(-15, most > 0 ? std::ilogb(most) + 1 : -15);
+        if (std::lround(std::ldexp(most, 9 - exponent)) > 511) ++exponent;
+        for (int i = 0; i < 3; ++i) {
+            const auto mantissa =
+                std::uint32_t(std::lround(std::ldexp(colour[std::size_t(i)], 9 - exponent)));
+            bits_ |= mantissa << (9 * i);
+            stored_[std::size_t(i)] = std::ldexp(double(mantissa), exponent - 9);
+        }
+        bits_ |= std::uint32_t(exponent + 15) << 27;
+    }
+    std::uint32_t bits() const { return bits_; }
+    const std::array<double, 3>& stored() const { return stored_; }
+
+private:
+    std::uint32_t bits_ = 0;
+    std::array<double, 3> stored_ = {};
+};
+
+// Stores a disc as the tile of its zone and radius. Returns the sums of the stored red, green and blue.
+std::array<double, 3> store(const Picture& disc, int zone, int radius, std::string& texels) {
+    std::array<double, 3> sums = {};
+    constexpr double kTexels = kSide * kSide;
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x) {
+            const SharedExponent light(float(kTexels) * disc(x, y));
+            for (std::size_t i = 0; i < 3; ++i) sums[i] += light.stored()[i] / kTexels;
+            const int at = (zone * kSide + y) * kRadii * kSide + radius * kSide + x;
+            for (int byte = 0; byte < 4; ++byte)
+                texels[std::size_t(4 * at + byte)] = char(light.bits() >> (8 * byte) & 255u);
+        }
+    return sums;
+}
+
+// The disc on a picture of so many more pixels that `side_px` of the camera's picture fill a tile.
+Result<LensDisc> tile_of(const Lens& lens, const LensMount& mount, double coc_px, double place,
+                         double side_px) {
+    LensMount fine = mount;
+    const double finer = kSide / side_px;
+    fine.width_px = std::max(1, int(std::lround(fine.width_px * finer)));
+    fine.height_px = std::max(1, int(std::lround(fine.height_px * finer)));
+    return lens_point_spread(lens, fine, coc_px * fine.width_px / mount.width_px, place, 0, kSide);
+}
+
+constexpr double kMostLost = 0.02;  // of a tile's light
+
+Status add_tile(const Lens& lens, const LensMount& mount, int zone, int radius, LensAtlas& atlas) {
+    const double coc_px = atlas.radii_px[std::size_t(radius)], place = atlas.zones[std::size_t(zone)];
+    double side_px = std::max(4.0, std::abs(coc_px) / 0.35);
+    auto disc = tile_of(lens, mount, coc_px, place, side_px);
+    while (disc && disc->lost_share > kMostLost && side_px < kLargestDiscPx / 2.0)
+        disc = tile_of(lens, mount, coc_px, place, side_px *= 1.3);
+    if (!disc) return disc.error();
+    atlas.lens = disc->lens;
+    atlas.sides_px[std::size_t(zone)].push_back(side_px);
+    atlas.sums[std::size_t(zone)].push_back(store(disc->weights, zone, radius, atlas.texels));
+    return Done{};
+}
+
+LensAtlas empty_atlas(const LensAtlasSettings& settings) {
+    LensAtlas atlas;
+    atlas.width = kRadii * kSide;
+    atlas.height = settings.zones * kSide;
+    atlas.texels.resize(4 * std::size_t(atlas.width) * std::size_t(atlas.height));
+    for (int radius = 0; radius < kRadii; ++radius) {
+        const double t = 2.0 * radius / (kRadii - 1) - 1;
+        atlas.radii_px.push_back(settings.largest_coc_px * t * std::abs(t));
+    }
+    for (int zone = 0; zone < settings.zones; ++zone)
+        atlas.zones.push_back(settings.zones > 1 ? double(zone) / (settings.zones - 1) : 0);
+    atlas.sides_px.resize(atlas.zones.size());
+    atlas.sums.resize(atlas.zones.size());
+    return atlas;
+}
+
+}  // namespace
+
+Result<LensAtlas> lens_atlas(const Lens& lens, const LensMount& mount, const LensAtlasSettings& settings) {
+    if (settings.zones < 1 || settings.zones > 64)
+        return Error{ErrorCode::InvalidArgument, "atlas.zones must be 1 to 64"};
+    if (!(settings.largest_coc_px > 0 && std::isfinite(settings.largest_coc_px)))
+        return Error{ErrorCode::InvalidArgument, "atlas.largest_coc_px must be above 0"};
+    LensAtlas atlas = empty_atlas(settings);
+    const auto go_on = [&](double done) { return !settings.progress || settings.progress(done); };
+    for (int zone = 0; zone < settings.zones; ++zone)
+        for (int radius = 0; radius < kRadii; ++radius) {
+            if (!go_on((zone + double(radius) / kRadii) / settings.zones))
+                return Error{ErrorCode::Cancelled, "stopped"};
+            if (const Status done = add_tile(lens, mount, zone, radius, atlas); !done) return done.error();
+        }
+    go_on(1);
+    return atlas;
+}
+
+}  // namespace petzval
