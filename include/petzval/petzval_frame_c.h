@@ -13,8 +13,9 @@ extern "C" {
 /* One stage of a frame: "blur", "falloff" (light lost towards the corners) or "glare", in the order of
  * physics; or "light": falloff and glare in one call. The shot's colour is the result of the stage before.
  * All stages in turn give the bits of petzval_defocus() for looks without expand_highlights and shots without
- * mask. The stages after the blur need an empty region, and do not make the shot's layers. A stage that the
- * look leaves out copies the picture. Errors: invalid_file, unsupported, cancelled. */
+ * mask. The stages after the blur need an empty region, and leave out the shot's layers and mask:
+ * the report's warnings name these. A stage that the look leaves out copies the picture. Errors:
+ * invalid_file, unsupported, cancelled. */
 PETZVAL_C_API petzval_status petzval_defocus_stage(petzval_session* session, const char* stage,
                                                    const petzval_shot* shot, const petzval_look* look,
                                                    const petzval_control* control, const petzval_pixels* out,

@@ -13,6 +13,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace {
 
@@ -107,6 +108,17 @@ petzval_status take_frame(petzval_session& session, Asked& asked, const petzval_
     return PETZVAL_OK;
 }
 
+// Fields that a stage after the blur has no use for.
+std::vector<std::string> passed_over(const Asked& asked) {
+    std::vector<std::string> warnings;
+    const auto note = [&](const char* field) {
+        warnings.push_back(std::string(field) + " has no effect in a stage after the blur");
+    };
+    if (!asked.shot.rendered.mask.empty()) note("shot.mask");
+    if (!asked.shot.rendered.layers.empty()) note("shot.layers");
+    return warnings;
+}
+
 // Falloff, glare or both, of a picture that is blurred already.
 petzval_status add_light(petzval_session& session, Asked& asked, const petzval_look* look,
                          const ColourView& into, petzval_report** report) {
@@ -119,7 +131,9 @@ petzval_status add_light(petzval_session& session, Asked& asked, const petzval_l
         session.session.add_light(std::move(picture), asked.shot.rendered, asked.look, asked.control);
     if (!lit) return fail(lit.error());
     write_pixels(*lit, into);
-    if (report) give(DefocusReport{}, report);
+    DefocusReport told;
+    told.warnings = passed_over(asked);
+    give(told, report);
     return PETZVAL_OK;
 }
 

@@ -82,7 +82,10 @@ class Stages(unittest.TestCase):
         with petzval.Session(threads=2) as session:
             whole, blurred = session.defocus(rendered), session.stage("blur", rendered)
             np.testing.assert_array_equal(blurred.layers[0], whole.layers[0])
-            self.assertEqual(session.stage("light", rendered, petzval.Look(**{"glare.bloom": 0.1})).layers, [])
+            rendered.mask = np.full(rendered.colour.shape[:2], 0.5, np.float32)
+            lit = session.stage("light", rendered, petzval.Look(**{"glare.bloom": 0.1}))
+            self.assertEqual(lit.layers, [])
+            self.assertEqual([line.split(" has ")[0] for line in lit.report["warnings"]], ["shot.mask", "shot.layers"])
 
 
 class Codes(unittest.TestCase):
