@@ -88,6 +88,14 @@ class Files(unittest.TestCase):
         self.assertGreater(found["psnr_lin"], petzval.compare(scene.truth, scene.colour)["psnr_lin"])
         self.assertFalse(np.array_equal(image, without), "hidden layers count")
 
+    def test_a_scene_written_and_read_again(self):
+        scene = petzval.make_scene("bars", 32, 18)
+        scene.write_like(self.folder / "scene.exr", scene.colour)
+        again = petzval.read_shot(self.folder / "scene.exr")
+        np.testing.assert_array_equal(again.depth_m, scene.depth_m)
+        np.testing.assert_allclose(again.colour, scene.colour, rtol=1e-3)  # half
+        self.assertAlmostEqual(again.camera.f_number, scene.camera.f_number, 5)
+
     def test_a_focus_pull_by_changing_the_camera(self):
         scene = petzval.make_scene("bars", 96, 54)
         with petzval.Session() as session:

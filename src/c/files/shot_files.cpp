@@ -13,6 +13,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include <nlohmann/json.hpp>
 
@@ -98,6 +99,7 @@ std::unique_ptr<petzval_shot_file> shot_of(RenderedScene scene, int width, int h
     shot.camera.sensor_width_mm = found(scene.camera.sensor_width_mm);
     shot.camera.f_number = found(scene.camera.f_number);
     shot.camera.focus_distance_m = found(scene.camera.focus_distance_m);
+    shot.camera.camera_from_world = scene.camera_from_world;
     shot.image_scale = scene.camera.image_scale;
     made->truth = std::move(scene.truth);
     if (!made->truth.empty()) made->truth_pixels = c::pixels_of(made->truth);
@@ -131,6 +133,9 @@ Result<Frame> frame_like(const Shot& shot, const petzval_pixels* colour, const p
     }
     frame.layers_carried = shot.layers_carried, frame.camera = shot.camera;
     frame.display_referred = shot.display_referred, frame.carried = shot.carried;
+    // A scene has no file that would hold its depth.
+    if (const auto* metres = std::get_if<DepthMetres>(&shot.depth); metres && !shot.carried)
+        frame.depth = metres->plane.clone();
     return frame;
 }
 
