@@ -209,7 +209,9 @@ petzval_status petzval_files_write_like(const petzval_shot_file* file, const pet
     return guarded([&] {
         const auto frame = frame_like(file->shot, colour, layers, layer_count);
         if (!frame) return fail(frame.error());
-        const Status written = write_exr(path, *frame);
+        WriteOptions options;
+        if (!file->shot.carried) options.camera = file->shot.camera;
+        const Status written = write_exr(path, *frame, options);
         return written ? PETZVAL_OK : fail(written.error());
     });
 }
