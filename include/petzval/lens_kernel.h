@@ -126,7 +126,8 @@ struct LensAtlas {
     int width = 0, height = 0;  // texels
     std::vector<double> zones;  // places, in half diagonals from the middle
     std::vector<double> radii_px;
-    // By zone, then radius: side of the square that the tile covers, pixels; sum of the stored r, g and b.
+    // The square that each tile covers has this side, in pixels; its stored r, g and b have these sums.
+    // Both are listed by zone, then radius.
     std::vector<std::vector<double>> sides_px;
     std::vector<std::vector<std::array<double, 3>>> sums;
     std::string lens;

@@ -33,7 +33,7 @@ Result<LensAtlas> make_atlas(const MountedLens& mounted, const AtlasFlags& flags
     return lens_atlas(mounted.lens, mounted.mount, settings);
 }
 
-// By zone, then radius.
+// Writes the sides by zone, then radius.
 Json sides_json(const LensAtlas& atlas) {
     Json all = Json::array();
     for (const auto& zone : atlas.sides_px) {

@@ -461,8 +461,7 @@ Result<DefocusReport> Maker::shown(const Wish& wish, const Rendered& rendered, c
         if (report && report->layers.size() == 1) report->image = std::move(report->layers[0]);
         return report;
     }
-    Look chosen = look;
-    chosen.vignetting = chosen.expand_highlights = false, chosen.glare = {};
+    Look chosen = of_blur_alone(look);
     Control shown = control;
     if (is_view(wish.shown)) {
         if (const auto scatter = parse<ScatterView>(wish.shown)) shown.view = *scatter;

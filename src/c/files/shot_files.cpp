@@ -124,15 +124,19 @@ Result<Frame> frame_like(const Shot& shot, const petzval_pixels* colour, const p
     Frame frame;
     auto picture = read(colour, "colour");
     if (!picture) return picture.error();
-    frame.place = shot.place, frame.colour = std::move(*picture), frame.has_alpha = shot.has_alpha;
+    frame.place = shot.place;
+    frame.colour = std::move(*picture);
+    frame.has_alpha = shot.has_alpha;
     for (std::uint64_t i = 0; i < layer_count; ++i) {
         auto layer = read(layers[i], "layers[" + std::to_string(i) + "]");
         if (!layer) return layer.error();
         const FrameLayer& like = shot.layers[i];
         frame.layers.push_back({like.names, std::move(*layer), like.is_light, like.spectrum});
     }
-    frame.layers_carried = shot.layers_carried, frame.camera = shot.camera;
-    frame.display_referred = shot.display_referred, frame.carried = shot.carried;
+    frame.layers_carried = shot.layers_carried;
+    frame.camera = shot.camera;
+    frame.display_referred = shot.display_referred;
+    frame.carried = shot.carried;
     // A scene has no file that would hold its depth.
     if (const auto* metres = std::get_if<DepthMetres>(&shot.depth); metres && !shot.carried)
         frame.depth = metres->plane.clone();
