@@ -424,12 +424,10 @@ Status Maker::take_picture(const Order& order, const Rendered& rendered, const C
     return Done{};
 }
 
-// Sprites of every pixel; while the camera moves, of every square of pixels that its rays share.
 Status Maker::take_sprites(const Order& order, const Rendered& rendered, const Control& control,
                            MadeFrame& frame) {
     const Wish& wish = order.wish;
-    if (!gl_context_)
-        return Error{ErrorCode::Unsupported, "no second OpenGL context can be had for sprites of 2009"};
+    if (!gl_context_) return Error{ErrorCode::Unsupported, "sprites of 2009 need a second OpenGL context"};
     const Look look = look_of_step(wish, 1);
     auto radii = circle_of_confusion(rendered, look);
     if (!radii) return radii.error();
@@ -438,7 +436,9 @@ Status Maker::take_sprites(const Order& order, const Rendered& rendered, const C
     if (!drawn) return drawn.error();
     frame.last = true;
     frame.panels = wish.shown == "atlas-2009" ? std::move(drawn->panels) : std::vector<Panel>{};
-    frame.engine = "sprites of 2009", frame.device = drawn->device, frame.quality = look.quality;
+    frame.engine = "sprites of 2009";
+    frame.device = drawn->device;
+    frame.quality = look.quality;
     frame.stages = std::move(drawn->stages);
     if (wish.shown == "atlas-2009") {
         frame.area = drawn->atlas.rect();

@@ -159,6 +159,7 @@ private:
     void warm_up();
     Status take_picture(const Order& order, const Rendered& rendered, const Control& control,
                         MadeFrame& frame);
+    // A sprite for each pixel; while the camera moves, for each square of pixels that its rays share.
     Status take_sprites(const Order& order, const Rendered& rendered, const Control& control,
                         MadeFrame& frame);
     void look_at_files();

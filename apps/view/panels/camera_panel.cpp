@@ -53,9 +53,10 @@ void camera_panel(App& app) {
     camera_number(app, "focal_length_mm", "focal length", found.focal_length_mm, {8, 400, "%.4g mm", true});
     camera_number(app, "sensor_width_mm", "sensor width", found.sensor_width_mm, {4, 70, "%.4g mm", true});
     const ImageScale scale = app.state.choice.camera.image_scale;
-    if (ImGui::BeginCombo("breathing", name_of(scale))) {
+    const auto called = [](ImageScale one) { return one == ImageScale::Rendered ? "off" : "on"; };
+    if (ImGui::BeginCombo("focus breathing", called(scale))) {
         for (const auto& known : names<ImageScale>())
-            if (ImGui::Selectable(known.name, known.value == scale))
+            if (ImGui::Selectable(called(known.value), known.value == scale))
                 say(app, std::string("set camera.image_scale ") + known.name);
         ImGui::EndCombo();
     }

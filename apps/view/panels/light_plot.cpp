@@ -50,8 +50,8 @@ void light_plot(App& app) {
                          (LightHistogram::kHighest_stops - LightHistogram::kLowest_stops);
     const float x = from.x + float(std::clamp(share, 0.0, 1.0)) * size.x;
     list->AddLine({x, from.y}, {x, from.y + size.y}, IM_COL32(255, 255, 255, 200), 1.5f);
-    ImGui::TextWrapped("2^-10 to 2^8; above 1: %.2g %%, black: %.2g %%", 100 * histogram.above_white,
-                       100 * histogram.black);
+    ImGui::TextWrapped("-10 to +8 stops around 1; above 1: %.2g %%, black: %.2g %%",
+                       100 * histogram.above_white, 100 * histogram.black);
 }
 
 }  // namespace petzval::view

@@ -38,7 +38,7 @@ Status focus(App& app, const Words& words) {
     if (app.shot() && app.shot()->shot.has_radii())
         return invalid("the file has blur radii, not depth: its focus cannot be moved");
     const auto depth = app.depth_near(*app.state.pick);
-    if (!depth) return invalid("nothing is seen there to focus on: a miss, or no depth");
+    if (!depth) return invalid("this pixel has no depth, as sky has none: click something else");
     if (Status done = set_field(app, "focus", text_of(*depth, 6)); !done) return done;
     app.notice = "focus " + text_of(*depth, 4) + " m";
     Timeline& line = app.state.timeline;

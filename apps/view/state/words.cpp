@@ -23,6 +23,8 @@ std::string label_of(const FieldRow& row) {
 
 std::string plain_words(const App& app, std::string text) {
     static const std::vector<std::pair<std::string, std::string>> words{
+        {"name one with read.depth_channel or a file with read.depth_file",
+         "choose one below, or a file that has depth"},
         {"job.engine", "engine"},
         {"session.device gpu", "start the window with --device gpu"},
         {"camera.focal_length_mm", "focal length"},
