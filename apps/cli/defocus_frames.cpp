@@ -54,8 +54,8 @@ void TrackFlags::add_to(Verb& verb) {
                "vectors, or by worldToCamera and depth (default 0)",
                parse_index, temporal)
         .value("--motion", "LAYER",
-               "motion vectors for --temporal, such as Vector or forward; off: cameras only (default: found "
-               "by name)",
+               "motion vectors for --temporal, such as Vector or forward; off: cameras only; still: the "
+               "camera stands still; flow: motion estimated from colour and depth (default: found by name)",
                parse_text, motion)
         .value("--motion-scale", "S[,SY]",
                "multiply vectors to get pixels per frame, +x right and +y up: 2 for a shutter of half a "
@@ -76,10 +76,13 @@ std::vector<std::string> TrackFlags::given() const {
 
 MotionReading TrackFlags::motion_reading() const {
     const MotionScale scale = motion_scale.value_or(MotionScale{});
-    return {.wanted = motion != "off",
-            .layer = motion == "off" ? "" : motion,
-            .scale_x = scale.x,
-            .scale_y = scale.y};
+    using From = MotionReading::From;
+    From from = From::File;
+    if (motion == "still") from = From::Still;
+    if (motion == "flow") from = From::Flow;
+    const bool reads = motion != "off" && from == From::File;
+    return {
+        .from = from, .wanted = reads, .layer = reads ? motion : "", .scale_x = scale.x, .scale_y = scale.y};
 }
 
 bool is_sequence(const DefocusFlags& flags) {
@@ -104,8 +107,9 @@ bool is_sequence(const DefocusFlags& flags) {
                                       {flags.track.motion_scale.has_value(), "--motion-scale"}})
         if (given && flags.track.temporal == 0)
             throw UsageError(std::string(name) + " has no effect without --temporal");
-    if (flags.track.motion == "off" && flags.track.motion_scale)
-        throw UsageError("--motion-scale has no effect with --motion off");
+    for (const char* without : {"off", "still", "flow"})
+        if (flags.track.motion == without && flags.track.motion_scale)
+            throw UsageError(std::string("--motion-scale has no effect with --motion ") + without);
     if (flags.frames.missing == MissingFiles::Black && flags.view != ShotView::Beauty)
         throw UsageError("--missing black is for --view beauty");
     return true;

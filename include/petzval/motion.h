@@ -30,7 +30,11 @@ struct MotionVectors {
 
 // The motion vectors that are read from a file, and the meaning of their values.
 struct MotionReading {
-    bool wanted = false;
+    // Without vectors: surfaces move as cameras and depth say (File), nothing moves but what visibly does
+    // (Still), or motion is estimated from the pictures and their depths (Flow).
+    enum class From { File, Still, Flow };
+    From from = From::File;
+    bool wanted = false;  // read vectors
     // A layer or part; empty: "detect, and say what was taken". By names of their channels, x to the right
     // and y upwards in pixels: X, Y, Z, W are Blender's, the way here from the next frame and to the previous
     // one (Cycles, kernel/geom/primitive.h: Z, W hold the present place less the next); `forward` and

@@ -25,7 +25,9 @@ public:
     using Read = std::function<Result<Shot>(int frame)>;
     // frames: the frames of the shot that exist, ascending. max_memory_bytes: limit for kept pictures, the
     // frame itself and the work on both; 0: no limit. Requires: each_side > 0.
-    Neighbours(std::vector<int> frames, int each_side, Read read, std::size_t max_memory_bytes = 0);
+    // from: how surfaces move where frames have no motion vectors.
+    Neighbours(std::vector<int> frames, int each_side, Read read, std::size_t max_memory_bytes = 0,
+               MotionReading::From from = MotionReading::From::File);
     ~Neighbours();
     Neighbours(const Neighbours&) = delete;
     Neighbours& operator=(const Neighbours&) = delete;
@@ -45,6 +47,7 @@ private:
     int each_side_;
     Read read_;
     std::size_t max_memory_bytes_;
+    MotionReading::From from_;
 };
 
 }  // namespace petzval

@@ -32,10 +32,15 @@ struct SeenElsewhere {
 struct OtherPicture {
     const Shot* shot = nullptr;
     int frames_later = 0;  // than the shot; 0: of the same moment, as the other eye
+    // Without motion vectors, of another moment: Still, or estimated by optical flow (Flow).
+    MotionReading::From motion_from = MotionReading::From::File;
 };
 
 // Projects the pixels of `others` into the view of `shot` and keeps those that lie behind the shot's own
 // surface. If several pictures know a pixel, the first one is used.
+//
+// By OtherPicture::motion_from, a picture without vectors stands still, or its motion is estimated; it is
+// left out by the same rules as by vectors.
 //
 // With motion vectors, pixels of another moment follow them from frame to frame through the pictures between;
 // where one of those hides the pixel, its motion continues uniformly. Otherwise both cameras (worldToCamera,
@@ -61,7 +66,7 @@ struct OtherPicture {
 // that it fades in before it appears.
 //
 // Memory: about 80 bytes a pixel beside the pictures. Errors: InvalidArgument if `shot` itself has no depth
-// in metres, or, without vectors, no camera or matrix.
+// in metres, or, without vectors and motion_from, no camera or matrix.
 PETZVAL_API Result<SeenElsewhere> seen_elsewhere(const Shot& shot, std::span<const OtherPicture> others,
                                                  Workers& workers);
 // The same of one moment.

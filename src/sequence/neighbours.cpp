@@ -79,12 +79,14 @@ private:
     }
 };
 
-Neighbours::Neighbours(std::vector<int> frames, int each_side, Read read, std::size_t max_memory_bytes)
+Neighbours::Neighbours(std::vector<int> frames, int each_side, Read read, std::size_t max_memory_bytes,
+                       MotionReading::From from)
     : kept_(std::make_unique<Kept>()),
       frames_(std::move(frames)),
       each_side_(each_side),
       read_(std::move(read)),
-      max_memory_bytes_(max_memory_bytes) {}
+      max_memory_bytes_(max_memory_bytes),
+      from_(from) {}
 
 Neighbours::~Neighbours() = default;
 
@@ -109,7 +111,7 @@ Result<SeenElsewhere> Neighbours::behind(const Shot& shot, int frame, Workers& w
         if (Status fits = check_memory(shot); !fits) return fits.error();
         const Result<Shot>& read = *held.back();
         if (read)
-            others.push_back({&*read, other - frame});
+            others.push_back({&*read, other - frame, from_});
         else
             left_out.push_back(read.error().message);
     }

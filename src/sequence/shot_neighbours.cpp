@@ -20,6 +20,7 @@ Result<std::shared_ptr<ShotNeighbours>> ShotNeighbours::make(const ShotRunSettin
     around->cancelled_ = std::move(cancelled);
     around->each_side_ = settings.temporal;
     around->max_memory_bytes_ = settings.source.read.max_memory_bytes;
+    around->from_ = settings.motion.from;
     around->all_views_ = settings.source.read.view_name == kAllViews;
     return around;
 }
@@ -38,7 +39,7 @@ Result<SeenElsewhere> ShotNeighbours::behind(const Shot& shot, int frame, Worker
     if (!own)
         own = std::make_unique<Neighbours>(
             frames_, each_side_, [this, view = shot.view](int f) { return read(f, view); },
-            max_memory_bytes_ / views);
+            max_memory_bytes_ / views, from_);
     return own->behind(shot, frame, workers, eyes);
 }
 
@@ -53,6 +54,7 @@ Result<Shot> ShotNeighbours::read(int frame, const std::string& view) const {
 }
 
 Status check_motion(const ShotRunSettings& of_frame) {
+    if (of_frame.motion.from != MotionReading::From::File) return Done{};
     ShotSource source = of_frame.source;
     if (source.read.view_name == kAllViews) source.read.view_name.clear();
     source.read.motion = of_frame.motion;
@@ -72,7 +74,8 @@ Status check_motion(const ShotRunSettings& of_frame) {
                      " nor motion vectors: " +
                      (has_matrix ? "give camera.focal_length_mm and camera.sensor_width_mm"
                                  : "render it with one of them") +
-                     ", name the layer of the vectors with read.motion.layer, or leave out shot.temporal"};
+                     ", name the layer of the vectors with read.motion.layer (flow: estimate the motion; "
+                     "still: the camera stands still), or leave out shot.temporal"};
 }
 
 }  // namespace petzval::sequence

@@ -37,6 +37,7 @@ private:
     int each_side_ = 0;
     std::size_t max_memory_bytes_ = 0;
     bool all_views_ = false;
+    MotionReading::From from_ = MotionReading::From::File;
     std::map<std::string, std::unique_ptr<Neighbours>> of_view_;
 };
 

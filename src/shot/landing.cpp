@@ -1,5 +1,7 @@
 #include "shot/landing.h"
 
+#include "shot/optical_flow.h"
+
 #include <array>
 #include <cmath>
 #include <limits>
@@ -215,6 +217,27 @@ Image<Landing> all_by_motion(const OtherPicture& other, std::span<const OtherPic
     return landings;
 }
 
+// Without motion vectors: each pixel stays where it is, or moves as the pictures and their depths say.
+Image<Landing> all_by_estimate(const OtherPicture& other, const Shot& shot, Workers& workers) {
+    const Shot& theirs = *other.shot;
+    const View<const float> depth = theirs.depth_plane();
+    const Rect &from = theirs.place.data_window, &to = shot.place.data_window;
+    Image<PixelMove> moves(depth.width(), depth.height());
+    if (other.motion_from == MotionReading::From::Flow)
+        moves = optical_flow({theirs.colour, depth, from}, {shot.colour, shot.depth_plane(), to}, workers);
+    auto landings = Image<Landing>::uninitialised(depth.width(), depth.height());
+    for_rows(depth.height(), workers, [&](int y) {
+        for (int x = 0; x < depth.width(); ++x) {
+            const PixelMove& move = moves(x, y);
+            landings(x, y) = std::isnan(move.x)
+                                 ? Landing{}
+                                 : Landing{float(from.x0 + x - to.x0) + 0.5f + move.x,
+                                           float(from.y0 + y - to.y0) + 0.5f + move.y, depth(x, y)};
+        }
+    });
+    return landings;
+}
+
 // The share of some pixels of `other` that look as the shot does where they land.
 double likeness(const Shot& other, const Shot& shot, const Image<Landing>& landings) {
     constexpr int kStep = 3;
@@ -233,6 +256,12 @@ double likeness(const Shot& other, const Shot& shot, const Image<Landing>& landi
                      look_alike(other, x, y, shot, at);
         }
     return all > 0 ? double(alike) / all : 0;
+}
+
+// In a message: how a picture's motion is known.
+std::string name_of(const OtherPicture& other) {
+    if (!other.shot->motion.empty()) return "by its motion vectors";
+    return other.motion_from == MotionReading::From::Still ? "with a still camera" : "by optical flow";
 }
 
 std::string percent(double share) { return std::to_string(int(std::lround(100 * share))) + " %"; }
@@ -298,8 +327,11 @@ Result<Landings> landings_of(const OtherPicture& other, std::span<const OtherPic
     Landings landings;
     if (has_camera) landings.of_pixels = all_by_cameras(theirs, by_cameras->way, workers);
     const double standing = has_camera ? likeness(theirs, shot, landings.of_pixels) : 0;
-    if (other.frames_later != 0 && !theirs.motion.empty()) {
-        auto moved = all_by_motion(other, all, shot, has_camera ? &by_cameras->way : nullptr, workers);
+    const bool has_vectors = !theirs.motion.empty();
+    if (other.frames_later != 0 && (has_vectors || other.motion_from != MotionReading::From::File)) {
+        auto moved = has_vectors
+                         ? all_by_motion(other, all, shot, has_camera ? &by_cameras->way : nullptr, workers)
+                         : all_by_estimate(other, shot, workers);
         const double alike = likeness(theirs, shot, moved);
         landings.by_motion = alike >= standing - kWorseByMotion &&
                              (standing >= kShareThatFits || alike >= kShareThatIsFollowed);
@@ -307,10 +339,11 @@ Result<Landings> landings_of(const OtherPicture& other, std::span<const OtherPic
             landings.of_pixels = std::move(moved);
             return landings;
         }
-        landings.warning = theirs.path + ": by its motion vectors " + percent(alike) +
+        landings.warning = theirs.path + ": " + name_of(other) + ' ' + percent(alike) +
                            " of the picture look the same" +
                            (has_camera ? ", by its camera " + percent(standing) : "") +
-                           ": they are left out; too much moves, or look at read.motion.scale";
+                           (has_vectors ? ": they are left out; too much moves, or look at read.motion.scale"
+                                        : ": too much moves, and the frame is not used by it");
         if (standing < kShareThatFits) return Error{ErrorCode::InvalidArgument, landings.warning};
     }
     if (!by_cameras) return by_cameras.error();

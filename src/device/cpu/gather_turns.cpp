@@ -299,7 +299,8 @@ private:
         if (first <= 1 - kernel.extent.x1 && last >= -kernel.extent.x0)
             return {kernel.steps.data(), kernel.weights.data(), int(kernel.steps.size())};
         const std::size_t weights = std::size_t(kGatherRows) * (kernel.neutral ? 1 : 4);
-        w_.steps.clear(), w_.weights.clear();
+        w_.steps.clear();
+        w_.weights.clear();
         for (std::size_t i = 0; i < kernel.steps.size(); ++i) {
             if (kernel.steps[i].dx < first || kernel.steps[i].dx > last) continue;
             w_.steps.push_back(kernel.steps[i]);
