@@ -100,6 +100,8 @@ std::string look_to_json(const Look& look) {
     Json json{{kVersionKey, kLookVersion}};
     for (const Field& field : fields()) {
         const auto [section, name] = split(field.path);
+        // A key of null would become an object in two steps, between which no exception is safe.
+        if (!section.empty() && !json.contains(section)) json[section] = Json::object();
         (section.empty() ? json : json[section])[name] = field.get(look);
     }
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -45,9 +45,12 @@ Summary summary_of(const std::vector<FarmFrame>& frames) {
         sum.frames[f.state].push_back(f.frame);
         if (f.state == State::Failed) sum.failures[f.why].push_back(f.frame);
         if (f.state != State::Complete && f.may_pass) sum.to_try.push_back(f.frame);
-        if (f.seconds) sum.seconds.push_back(*f.seconds);
-        if (f.seconds && *f.seconds > most) most = *f.seconds, sum.slowest = f.frame;
         sum.peak_bytes = std::max(sum.peak_bytes, f.peak_memory_bytes);
+        if (!f.seconds) continue;
+        sum.seconds.push_back(*f.seconds);
+        if (*f.seconds < most) continue;
+        most = *f.seconds;
+        sum.slowest = f.frame;
     }
     std::sort(sum.seconds.begin(), sum.seconds.end());
     return sum;

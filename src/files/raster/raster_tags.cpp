@@ -64,9 +64,11 @@ void turn(std::vector<Sample>& samples, const Raster& stored, const Raster& turn
 }  // namespace
 
 int orientation_of_exif(TagBytes marker) {
-    constexpr std::string_view kExif{"Exif\0\0", 6};
-    if (marker.size() < kExif.size() || std::memcmp(marker.data(), kExif.data(), kExif.size()) != 0) return 1;
-    Directory tiff{marker.subspan(kExif.size())};
+    constexpr std::string_view kExifHead{"Exif\0\0", 6};
+    if (marker.size() < kExifHead.size() ||
+        std::memcmp(marker.data(), kExifHead.data(), kExifHead.size()) != 0)
+        return 1;
+    Directory tiff{marker.subspan(kExifHead.size())};
     tiff.big_endian = !tiff.bytes.empty() && tiff.bytes[0] == 'M';
     const std::size_t first = tiff.number(4, 4);
     for (std::size_t i = 0, entries = tiff.number(first, 2); i < entries; ++i) {

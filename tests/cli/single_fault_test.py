@@ -1,0 +1,78 @@
+"""One allocation, write or read of a run fails, once: the run ends with its right result or with one line and an
+exit code, never with a signal or half a file. PETZVAL_FAULTS names the library that makes calls fail."""
+import os
+import random
+import unittest
+
+from pictures import camera_attributes, picture, write_exr
+from program import CommandLineTest
+
+FAULTS = os.environ.get("PETZVAL_FAULTS", "")
+EACH = int(os.environ.get("PETZVAL_FAULTS_EACH", "16"))  # runs of a command; 0: every call
+RUNS = (["defocus", "in.0001.exr", "-o", "out.exr"],
+        ["defocus", "in.####.exr", "-o", "out.####.png", "--frames", "1-2", "--engine", "gather"],
+        ["scene", "make", "tori", "-o", "out.exr", "--width", "32", "--height", "18", "--pinhole-samples", "1"],
+        ["lens", "psf", "doublet", "-o", "out.exr"])
+
+
+@unittest.skipUnless(os.path.exists(FAULTS), "this build has an allocator of its own")
+class SingleFault(CommandLineTest):
+    def setUp(self):
+        super().setUp()
+        for frame in (1, 2):
+            write_exr(self.path("in.%04d.exr" % frame), picture(48, 32, depth=lambda x, y: 1 + x / 40),
+                      attributes=camera_attributes(50, 36, 1.4, 2))
+
+    def outputs(self):
+        return {name: self.content(name) for name in os.listdir(self.folder) if not name.startswith(("in.", "counts"))}
+
+    def remove_outputs(self):
+        for name in self.outputs():
+            os.remove(self.path(name))
+
+    def with_fault(self, command, fault):
+        return self.run_program(*command, "-q", env={"LD_PRELOAD": FAULTS, "PETZVAL_FAULT": fault,
+                                                     "PETZVAL_FAULT_COUNT": self.path("counts")})
+
+    def calls(self, command):
+        self.assertEqual(self.with_fault(command, "").code, 0)
+        with open(self.path("counts")) as file:
+            return {kind: int(count) for kind, count in (line.split() for line in file)}
+
+    def check(self, kind, codes):
+        """All calls of a kind, or a sample: the first and the last eight, and as many of the last sixth, where the
+        work is done once the flags are known, as of the rest."""
+        dice = random.Random(32)
+        for command in RUNS:
+            self.remove_outputs()
+            count, right = self.calls(command)[kind], self.outputs()
+            chosen = range(1, count + 1)
+            if 0 < EACH < count:
+                late = range(count - count // 6, count + 1)
+                chosen = sorted({*range(1, 9), *range(count - 7, count + 1), *dice.sample(chosen, EACH // 2),
+                                 *dice.sample(late, min(EACH // 2, len(late)))})
+            for call in chosen:
+                self.remove_outputs()
+                outcome = self.with_fault(command, f"{kind}:{call}")
+                where = f"{' '.join(command)}, {kind} {call} of {count}\n{outcome}"
+                self.assertIn(outcome.code, codes, where)
+                left = self.outputs()
+                if outcome.code == 0:
+                    self.assertEqual(left, right, where)
+                else:
+                    self.assertTrue(outcome.lines and outcome.lines[-1].startswith("petzval: "), where)
+                    for name, content in left.items():  # another frame of the shot
+                        self.assertEqual(content, right.get(name), where)
+
+    def test_an_allocation(self):
+        self.check("malloc", (0, 1))
+
+    def test_a_write(self):
+        self.check("write", (0, 1, 6))
+
+    def test_a_read(self):
+        self.check("read", (0, 1, 3, 4))
+
+
+if __name__ == "__main__":
+    unittest.main()
