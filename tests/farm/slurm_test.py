@@ -13,9 +13,11 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
 
+import program  # noqa: E402
 from pictures import plane, write_exr  # noqa: E402
 from program import CAMERA, CommandLineTest  # noqa: E402
 
+program.TIME_LIMIT_S = 600  # a busy machine
 NODES = ("n1", "n2", "n3")
 CONF = """ClusterName=petzval
 SlurmctldHost={host}(127.0.0.1)
@@ -114,7 +116,7 @@ class Cluster(CommandLineTest):
         if os.path.exists(os.path.join(self.slurm, "munge.pid")):
             self.kill(self.pid_of("munge"))
 
-    def wait(self, what, condition, seconds=120):
+    def wait(self, what, condition, seconds=600):
         end = time.monotonic() + seconds
         while not condition():
             self.hurry()
@@ -148,7 +150,9 @@ class Cluster(CommandLineTest):
         mounted = f"mount -t tmpfs -o size=4k tmpfs {self.path('out')} && exec slurmd -N n2"
         self.call("unshare", "-m", "sh", "-c", mounted)
         self.wait("two nodes", lambda: self.call("sinfo", "-h", "-N", "-t", "idle").count("\n") == 2)
-        self.call("sbatch", "job/petzval.sbatch")
+        self.succeed("farm", "submit", "job", env=self.env)
+        self.assertIn("Slurm: ", self.succeed("farm", "status", "job", env=self.env).out)
+        self.refuse(2, "farm", "submit", "job", says=["still in Slurm's queue"], env=self.env)
         # A full disk: such frames are tried again until n2 has its disk back.
         self.wait("a full disk", lambda: "output not written: always retry" in self.logs())
         self.kill(*self.processes("SLURMD_NODENAME=n2"), self.pid_of("n2"))
@@ -170,6 +174,12 @@ class Cluster(CommandLineTest):
         for frame in range(1, 7):
             self.assertEqual(self.content("out/f.%04d.exr" % frame), self.content("ref.%04d.exr" % frame), self.logs())
         self.assertEqual(len(os.listdir(self.path("out"))), 6)
+        # A frame that is cut later is found, and Slurm renders that one again.
+        os.truncate(self.path("out/f.0002.exr"), 500)
+        self.succeed("farm", "collect", "job", "--resubmit", env=self.env)
+        self.wait("frame 2 again", lambda: not self.call("squeue", "-h"))
+        self.assertIn("complete  6\n", self.succeed("farm", "collect", "job", env=self.env).out)
+        self.assertEqual(self.content("out/f.0002.exr"), self.content("ref.0002.exr"))
 
 
 if __name__ == "__main__":
