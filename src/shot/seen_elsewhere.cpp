@@ -307,8 +307,7 @@ float share_of_hidden(const OtherPicture& other, std::span<const OtherPicture> a
 Result<SeenElsewhere> seen_elsewhere(const Shot& shot, std::span<const OtherPicture> others,
                                      Workers& workers) {
     const bool by_motion = std::any_of(others.begin(), others.end(), [](const OtherPicture& o) {
-        return o.frames_later != 0 &&
-               (!o.shot->motion.empty() || o.motion_from != MotionReading::From::File);
+        return o.frames_later != 0 && (!o.shot->motion.empty() || o.motion_from != MotionReading::From::File);
     });
     if (Status fine = by_motion ? check_depth(shot) : check_eye(shot); !fine) return fine.error();
     const View<const float> depth = shot.depth_plane();

@@ -1,5 +1,5 @@
-// Combined light of coarse levels, in square blocks of cells: a block is gathered once for all tiles of pixels
-// that read it.
+// Combined light of coarse levels, in square blocks of cells: a block is gathered once for all tiles of
+// pixels that read it.
 #pragma once
 
 #include "device/cpu/gather_turns.h"
