@@ -80,8 +80,8 @@ def translate(step, made, out):
 BOUND = {
     "measure": {0: "colour", 1: "surroundings: 2 floats a tile"},
     "split": {0: "colour", 1: "depth", 2: "cells, level 0", 3: "cells, level 1", 4: "cells, level 2", 5: "cells, level 3",
-              6: "tiles: smallest and largest signed radius, 2 floats a tile", 7: "surroundings", 8: "lamps: 4 words a tile"},
-    "reach": {0: "tiles", 1: "reach: 2 floats a tile", 2: "lamps", 3: "boxes: 4 ints a tile", 4: "kept: 4 words a tile", 5: "cells, level 0"},
+              6: "tiles: largest radii, 4 floats a tile", 7: "surroundings", 8: "lamps: 4 words a tile"},
+    "reach": {0: "tiles", 1: "reach: 4 floats a tile", 2: "lamps", 3: "boxes: 4 ints a tile", 4: "kept: 4 words a tile", 5: "cells, level 0"},
     "gather": {0: "cells, all levels, linear", 1: "lens", 2: "reach", 3: "gathered: 3 layers of cells"},
     "combine_16": {0: "colour", 1: "cells, all levels, linear", 2: "layer over the picture, or anything", 3: "gathered, linear",
                    4: "result, rgba16f", 5: "lens", 6: "kept", 7: "boxes", 8: "reach"},

@@ -44,9 +44,9 @@ void RealtimePass::make() {
     gathered_ = DeviceImage(opened_, memory_, kind);
     const std::size_t tiles = std::size_t(tiles_x()) * tiles_y();
     surroundings_ = heap_.allocate(Kind::OnDevice, tiles * 2 * sizeof(float));
-    tiles_ = heap_.allocate(Kind::OnDevice, tiles * 2 * sizeof(float));
+    tiles_ = heap_.allocate(Kind::OnDevice, tiles * 4 * sizeof(float));
     lamps_ = heap_.allocate(Kind::OnDevice, tiles * 4 * sizeof(std::uint32_t));
-    reach_ = heap_.allocate(Kind::OnDevice, tiles * 2 * sizeof(float));
+    reach_ = heap_.allocate(Kind::OnDevice, tiles * 4 * sizeof(float));
     boxes_ = heap_.allocate(Kind::OnDevice, tiles * 4 * sizeof(std::int32_t));
     kept_ = heap_.allocate(Kind::OnDevice, tiles * 4 * sizeof(std::uint32_t));
     lens_ = heap_.allocate(Kind::OnDevice, engine::RealtimeLens::kBytes);
@@ -183,13 +183,13 @@ std::uint64_t RealtimePass::least_bytes(Step step) const {
         case kMeasure:
             return pixels * colour + tiles * 8;
         case kSplit:
-            return pixels * (colour + depth) + all_cells + radii + tiles * (8 + 8 + 16);
+            return pixels * (colour + depth) + all_cells + radii + tiles * (8 + 16 + 16);
         case kReach:
-            return tiles * (8 + 16 + 8 + 16 + 16);
+            return tiles * (16 + 16 + 16 + 16 + 16);
         case kGather:
-            return all_cells + gathered + tiles * 8;
+            return all_cells + gathered + tiles * 16;
         default:
-            return pixels * (colour + colour) + radii + gathered + tiles * (8 + 16 + 16);
+            return pixels * (colour + colour) + radii + gathered + tiles * (16 + 16 + 16);
     }
 }
 

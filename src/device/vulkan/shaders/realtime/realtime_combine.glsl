@@ -6,7 +6,7 @@ layout(binding = 1) uniform sampler2DArray cells;
 layout(binding = 2) uniform sampler2D over;  // the host's transparent layer, premultiplied
 layout(binding = 3) uniform sampler2DArray gathered;
 layout(binding = 4, RESULT) writeonly uniform image2D result;
-layout(std430, binding = 8) readonly buffer Reach { vec2 reach[]; };
+layout(std430, binding = 8) readonly buffer Reach { vec4 reach[]; };  // realtime_reach.comp
 #include "realtime.glsl"
 
 float radius_at(ivec2 pixel) {
@@ -14,37 +14,72 @@ float radius_at(ivec2 pixel) {
 }
 #include "realtime_sprites.glsl"
 
-// Sums blurs too fine for cells of two pixels: a pixel and those around it, each over a disc of its radius.
-// Background is seen through the pixel's own disc.
+// Sums blurs too fine for cells of two pixels: a pixel and those around it, each over a disc of its radius, from a window
+// that the group reads once. Background is seen through the pixel's own disc.
+const int kRim = 3, kAcross = 8 + 2 * kRim;  // pixels
+shared vec4 window[kAcross * kAcross];
+shared vec2 window_discs[kAcross * kAcross];  // signed radius, at least half a pixel; light that a pixel of the disc gets
+shared float distances[kRim + 1][kRim + 1];
+float of_each(float radius_px) {
+    return (1 - blurred_share(radius_px)) / max(1.0, 3.14159 * (radius_px * radius_px + 1.0 / 12));
+}
+float at_least_half(float radius) { return radius < 0 ? min(radius, -0.5) : max(radius, 0.5); }
+// All invocations of the group together.
+void read_window() {
+    const int own = int(gl_LocalInvocationIndex);
+    const ivec2 first = 8 * ivec2(gl_WorkGroupID.xy) - kRim;
+    for (int i = own; i < kAcross * kAcross; i += 64) {
+        const ivec2 there = clamp(first + ivec2(i % kAcross, i / kAcross), ivec2(0), at.size - 1);
+        const float radius = at_least_half(radius_at(there));
+        window[i] = finite_of(texelFetch(colours, there, 0));
+        window_discs[i] = vec2(radius, of_each(abs(radius)));
+    }
+    if (own < 16) distances[own / 4][own % 4] = length(vec2(own % 4, float(own / 4) / at.aspect));
+}
+// Offsets of pixels that a disc reaches.
+int last_offset(float radius_px) { return min(int(ceil(max(radius_px, 0.5) + 0.5)) - 1, kRim); }
+
 struct Fine {
     vec4 back, near;
     float area;  // of what is in front of focus
 };
-Fine fine(ivec2 pixel, vec4 sharp, float radius, float widest_px) {
+Fine fine(vec4 sharp, float radius, float back_px, float near_px) {
     Fine sum = Fine(sharp, vec4(0), 0);
-    if (widest_px == 0) return sum;
-    const int far = int(ceil(widest_px));
-    vec4 back = vec4(0), guess = vec4(0);
-    float back_area = 0, guess_area = 0;
+    const int own = (int(gl_LocalInvocationID.y) + kRim) * kAcross + int(gl_LocalInvocationID.x) + kRim;
+    vec4 back = vec4(0);
+    float back_area = 0;
+    const float opening = max(radius, 0.5), of_opening = of_each(opening);
+    int far = last_offset(back_px);
     for (int y = -far; y <= far; ++y)
         for (int x = -far; x <= far; ++x) {
-            const ivec2 there = clamp(pixel + ivec2(x, y), ivec2(0), at.size - 1);
-            const float own = radius_at(there), reaches = own < 0 ? -own : min(own, radius), disc = max(reaches, 0.5);
-            const float covers = clamp(disc + 0.5 - length(vec2(x, float(y) / at.aspect)), 0.0, 1.0);
-            const float area = (1 - blurred_share(disc)) * covers / max(1.0, 3.14159 * (disc * disc + 1.0 / 12));
-            if (area == 0 && (own < 0 || radius >= 0)) continue;
-            const vec4 light = finite_of(texelFetch(colours, there, 0));
-            if (own < 0) sum.near += area * light, sum.area += area;
-            else {
-                const float likely = 1 / (1 + brightness(light));
-                back += area * light, back_area += area;
-                guess += likely * light, guess_area += likely;
-            }
+            const int there = own + y * kAcross + x;
+            const vec2 disc = window_discs[there];
+            const float covers = clamp(min(disc.x, opening) + (0.5 - distances[abs(y)][abs(x)]), 0.0, 1.0);
+            const float area = covers * max(disc.y, of_opening);
+            back += area * window[there], back_area += area;
         }
-    // Background behind a near surface is estimated from its surroundings, or continues them.
+    far = last_offset(near_px);  // 0: what is in focus, a little before it
+    for (int y = -far; y <= far; ++y)
+        for (int x = -far; x <= far; ++x) {
+            const int there = own + y * kAcross + x;
+            const vec2 disc = window_discs[there];
+            const float area = disc.y * clamp((0.5 - distances[abs(y)][abs(x)]) - disc.x, 0.0, 1.0);
+            sum.near += area * window[there], sum.area += area;
+        }
     if (back_area > 1e-3) sum.back = back / back_area;
-    else if (guess_area > 0) sum.back = guess / guess_area;
-    else if (sum.area > 0) sum.back = sum.near / sum.area;
+    else if (radius < 0) {
+        // Background behind a near surface is estimated from its surroundings, or continues them.
+        vec4 guess = vec4(0);
+        float guess_area = 0;
+        for (int i = 0; i < (2 * kRim + 1) * (2 * kRim + 1); ++i) {
+            const int there = own + (i / (2 * kRim + 1) - kRim) * kAcross + i % (2 * kRim + 1) - kRim;
+            if (window_discs[there].x < 0) continue;
+            const float likely = 1 / (1 + brightness(window[there]));
+            guess += likely * window[there], guess_area += likely;
+        }
+        if (guess_area > 0) sum.back = guess / guess_area;
+        else if (sum.area > 0) sum.back = sum.near / sum.area;
+    }
     // A disc counted pixel by pixel is its area to 4 %.
     if (sum.area > 1) sum.near /= sum.area, sum.area = 1;
     return sum;
@@ -79,8 +114,12 @@ void main() {
     const vec2 place = (vec2(pixel) + 0.5) * 0.5 / vec2(8 * at.tiles);
     const ivec2 tile = pixel / kTile;
     const float radius = radius_at(pixel);
-    const vec2 reaches = reach[tile.y * at.tiles.x + tile.x];
-    const Fine own = fine(pixel, finite_of(texelFetch(colours, pixel, 0)), radius, reaches.y);
+    const vec4 reaches = reach[tile.y * at.tiles.x + tile.x];
+    const bool is_fine = max(reaches.y, reaches.z) > 0;
+    if (is_fine) read_window();
+    barrier();
+    Fine own = Fine(finite_of(texelFetch(colours, pixel, 0)), vec4(0), 0);
+    if (is_fine) own = fine(own.back, radius, reaches.y, reaches.z);
     vec4 near_lamps = vec4(0), back_lamps = vec4(0);
     add_all_lamps(pixel, reaches.x, near_lamps, back_lamps);
     const vec4 near = textureLod(gathered, vec3(place, kGatheredNear), 0);

@@ -6,7 +6,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(binding = 0) uniform sampler2DArray cells;
 layout(std430, binding = 1) readonly buffer Lens { vec4 lens[]; };  // engine/gather/realtime_plan.h
-layout(std430, binding = 2) readonly buffer Reach { vec2 reach[]; };
+layout(std430, binding = 2) readonly buffer Reach { vec4 reach[]; };  // realtime_reach.comp
 layout(binding = 3, rgba16f) writeonly uniform image2DArray gathered;
 #include "realtime.glsl"
 

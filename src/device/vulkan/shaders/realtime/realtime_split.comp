@@ -11,13 +11,13 @@ layout(binding = 2, rgba16f) writeonly uniform image2DArray cells_1;  // 8 x 8 o
 layout(binding = 3, rgba16f) writeonly uniform image2DArray cells_2;  // means over 2 x 2 of them
 layout(binding = 4, rgba16f) writeonly uniform image2DArray cells_4;
 layout(binding = 5, rgba16f) writeonly uniform image2DArray cells_8;
-layout(std430, binding = 6) writeonly buffer Tiles { vec2 tiles[]; };  // smallest and largest signed radius
+layout(std430, binding = 6) writeonly buffer Tiles { vec4 tiles[]; };  // realtime_reach.comp
 layout(std430, binding = 8) writeonly buffer Lamps { uvec4 lamps[]; };  // by tile: which cells have one, the largest radius
 #include "realtime.glsl"
 #include "realtime_lamps.glsl"
 
 shared vec4 part[kLayers][64];
-shared vec2 radii[64];
+shared vec3 radii[64];
 shared uint lamp_cells[2], lamp_px;  // as bits: they are ordered as floats are
 
 // The signed radius of a cell's lamp, which is that of its brightest pixel. But a bright pixel or two among dark ones of their
@@ -99,7 +99,8 @@ void main() {
     measure_around();
     vec4 near_light = vec4(0), back_light = vec4(0);
     float near_area = 0, near_radius = 0, near_counts = 0, back_area = 0, back_weight = 0, back_radius = 0, back_counts = 0;
-    vec2 range = vec2(1e9, -1e9), lamp_place = vec2(0);
+    vec3 range = vec3(0);
+    vec2 lamp_place = vec2(0);
     vec4 lamp = vec4(0), own_radii;
     for (int i = 0; i < 4; ++i) {
         // Continues the border beyond the picture.
@@ -113,7 +114,7 @@ void main() {
             const vec4 taken = blurred_share(abs(radius)) * bright;
             lamp += taken, lamp_place += brightness(taken) * (vec2(corner) + 0.5);
         }
-        range = vec2(min(range.x, radius), max(range.y, radius));
+        range = max(range, vec3(-radius, pixelwise(radius), pixelwise(-radius)));
         const float near = 0.25 * blurred_share(-radius), back = 0.25 - near;
         near_light += near * light, near_area += near;
         // The mean over two depths has the radius of the brighter light.
@@ -141,13 +142,12 @@ void main() {
         barrier();
         const bool is_one = local.x < side && local.y < side;
         vec4 mean[kLayers];
-        vec2 both = vec2(0);
+        vec3 both = vec3(0);
         if (is_one) {
             const int a = 2 * local.y * 2 * side + 2 * local.x, b = a + 2 * side;
             for (int k = 0; k < kLayers; ++k)
                 mean[k] = 0.25 * (part[k][a] + part[k][a + 1] + part[k][b] + part[k][b + 1]);
-            both.x = min(min(radii[a].x, radii[a + 1].x), min(radii[b].x, radii[b + 1].x));
-            both.y = max(max(radii[a].y, radii[a + 1].y), max(radii[b].y, radii[b + 1].y));
+            both = max(max(radii[a], radii[a + 1]), max(radii[b], radii[b + 1]));
         }
         barrier();
         if (is_one) {
@@ -161,5 +161,5 @@ void main() {
             radii[local.y * side + local.x] = both;
         }
     }
-    if (own == 0u) tiles[tile.y * at.tiles.x + tile.x] = radii[0];
+    if (own == 0u) tiles[tile.y * at.tiles.x + tile.x] = vec4(radii[0], 0);
 }
