@@ -5,8 +5,8 @@
 
 #include "counted_spirv.h"
 #include "device/failure.h"
-#include "device/vulkan/realtime.h"
-#include "device/vulkan/test_context.h"
+#include "device/vulkan/driver/test_context.h"
+#include "device/vulkan/realtime/realtime.h"
 #include "job.h"
 #include "kernel/lenses/make_lens.h"
 
@@ -65,7 +65,8 @@ VKAPI_ATTR VkResult VKAPI_CALL create_layout(VkDevice device, const VkPipelineLa
                                              const VkAllocationCallbacks* memory, VkPipelineLayout* made) {
     const std::array layouts{info->pSetLayouts[0], state.layout};
     VkPipelineLayoutCreateInfo own = *info;
-    own.setLayoutCount = 2, own.pSetLayouts = layouts.data();
+    own.setLayoutCount = 2;
+    own.pSetLayouts = layouts.data();
     return state.driver.vkCreatePipelineLayout(device, &own, memory, made);
 }
 
@@ -84,18 +85,22 @@ Piece count_from_here(Context& context) {
     const VkDescriptorSetLayoutBinding binding = {0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1,
                                                   VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
     VkDescriptorSetLayoutCreateInfo layout = {};
-    layout.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, layout.bindingCount = 1,
+    layout.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+    layout.bindingCount = 1;
     layout.pBindings = &binding;
     vk.vkCreateDescriptorSetLayout(context.handle(), &layout, nullptr, &state.layout);
     const VkDescriptorPoolSize size = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1};
     VkDescriptorPoolCreateInfo pool = {};
-    pool.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO, pool.maxSets = 1;
-    pool.poolSizeCount = 1, pool.pPoolSizes = &size;
+    pool.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+    pool.maxSets = 1;
+    pool.poolSizeCount = 1;
+    pool.pPoolSizes = &size;
     VkDescriptorPool made = VK_NULL_HANDLE;
     vk.vkCreateDescriptorPool(context.handle(), &pool, nullptr, &made);
     VkDescriptorSetAllocateInfo set = {};
     set.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO, set.descriptorPool = made;
-    set.descriptorSetCount = 1, set.pSetLayouts = &state.layout;
+    set.descriptorSetCount = 1;
+    set.pSetLayouts = &state.layout;
     vk.vkAllocateDescriptorSets(context.handle(), &set, &state.set);
     constexpr std::size_t kBytes = 65536;
     Piece counters = context.heap().allocate(Kind::FromDevice, kBytes);
@@ -150,7 +155,8 @@ int main(int count, char** words) {
     const Piece counters = count_from_here(*context);
     Picture out(width, height);
     const auto lens = std::make_shared<const engine::RealtimeLens>(
-        engine::realtime_lens(**mounted, {}, std::ceil(asked.radius_px), std::ceil(asked.radius_px)));
+        engine::realtime_lens(**mounted, {}, std::ceil(asked.radius_px), std::ceil(asked.radius_px),
+                              engine::realtime_taps(asked.quality)));
     try {
         RealtimeDrawer(*context).draw({frame->colour, *coc_px, float(asked.radius_px), 1, lens}, out);
     } catch (const device::Failed& failed) {

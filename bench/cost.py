@@ -1,6 +1,6 @@
 """Work of the real-time pass a pixel, counted while it draws, and the least time that it takes on six cards.
 
-Usage: ./dev bench cost [--scenes A,B] [--radii R,R] [--width N]
+Usage: ./dev bench cost [--scenes A,B] [--radii R,R] [--width N] [--quality Q]
 A counter in each block of each program counts how often invocations ran it; a block's work is read from its SPIR-V
 (bench/counted_spirv.h): 32-bit operations of one lane, with 4 for a root or reciprocal; samples and fetches of images;
 reads and writes of buffers. Any device serves, as counts do not depend on it.
@@ -22,7 +22,8 @@ from gpu import picture, table
 from quality import PROGRAM
 
 COST = pathlib.Path(PROGRAM).parents[2] / "bench/petzval_bench_cost"
-# Operations and samples of RGBA16F a second, bytes a second, pixels: published peaks, docs/results/gpu.md.
+# Operations and samples of RGBA16F a second, bytes a second, pixels. Published peaks: half of the teraflops, texels a second
+# (half of them on GeForce and GCN), memory.
 CARDS = {
     "RTX 4090, 1080p": (41.3e12, 645e9, 1008e9, 1920 * 1080),
     "H100 SXM, 1080p": (33.5e12, 466e9, 3350e9, 1920 * 1080),
@@ -35,8 +36,8 @@ BYTES = 76.4  # a pixel, of a host's frame
 STEPS = ("measure", "split", "reach", "gather", "combine")
 
 
-def counted(scene, radius, width):
-    result = subprocess.run([COST, picture(scene, width), "--radius", str(radius)], stdout=subprocess.PIPE, text=True)
+def counted(scene, radius, given):
+    result = subprocess.run([COST, picture(scene, given.width), "--radius", str(radius), "--quality", given.quality], stdout=subprocess.PIPE, text=True)
     if result.returncode:
         sys.exit(result.returncode)
     return json.loads(result.stdout)
@@ -57,11 +58,12 @@ def main():
     parser.add_argument("--scenes", type=lambda s: s.split(","), default=["night", "table", "fence", "hair", "lanterns"])
     parser.add_argument("--radii", type=lambda s: s.split(","), default=["12", "40"], help="largest radius, px")
     parser.add_argument("--width", type=int, default=640)
+    parser.add_argument("--quality", default="standard")
     given = parser.parse_args()
     rows, times, last = [], [], {}
     for scene in given.scenes:
         for radius in given.radii:
-            last = counted(scene, radius, given.width)
+            last = counted(scene, radius, given)
             all_of = {unit: sum(step[unit] for step in last.values()) for unit in ("operations", "samples", "reads")}
             rows.append([scene, radius, *(f"{last[step]['operations']:.0f}" for step in STEPS if step in last),
                          *(f"{all_of[unit]:.0f}" for unit in all_of)])

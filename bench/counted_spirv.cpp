@@ -99,8 +99,14 @@ public:
             const Instruction i = words_.subspan(at, words_[at] >> 16);
             const std::uint32_t op = op_of(i);
             at += i.size();
-            if (!has_types && op >= 19 && op <= kVariable) decorate(out), has_types = true;
-            if (!has_function && op == kFunction) declare(out), has_function = true;
+            if (!has_types && op >= 19 && op <= kVariable) {
+                decorate(out);
+                has_types = true;
+            }
+            if (!has_function && op == kFunction) {
+                declare(out);
+                has_function = true;
+            }
             if (is_open && op != kPhi && op != kVariable)
                 count(out, std::uint32_t(result.blocks.size()) - 1), is_open = false;
             if (op == kEntryPoint) {

@@ -1,4 +1,4 @@
-// A program of the device with a counter in each of its blocks, and what a run of each block costs.
+// A program of the device with a counter in each of its blocks, and the cost of a run of each block.
 #pragma once
 
 #include <cstdint>

@@ -122,10 +122,13 @@ struct KeptRealtimeLens final : device::Memory::Thing {
 std::shared_ptr<const RealtimeLens> kept_realtime_lens(const EngineView& input) {
     const double near_px = std::ceil(double(std::max(0.0f, -input.samples.nearest_coc_px))),
                  far_px = std::ceil(double(std::max(0.0f, input.samples.farthest_coc_px)));
+    const int taps = realtime_taps(input.options.quality);
     const auto kept = input.services.memory->get<KeptRealtimeLens>(
-        "realtime " + std::to_string(int(near_px)) + " " + std::to_string(int(far_px)), [&] {
+        "realtime " + std::to_string(int(near_px)) + " " + std::to_string(int(far_px)) + " " +
+            std::to_string(taps),
+        [&] {
             return std::make_shared<KeptRealtimeLens>(
-                realtime_lens(input.lens.level(0), kernel::FieldPosition{}, near_px, far_px));
+                realtime_lens(input.lens.level(0), kernel::FieldPosition{}, near_px, far_px, taps));
         });
     return {kept, &kept->lens};
 }

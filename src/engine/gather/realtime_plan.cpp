@@ -8,17 +8,23 @@ namespace petzval::engine {
 namespace {
 
 using kernel::PointSpread;
-constexpr int kSide = RealtimeLens::kSide;
-constexpr float kHalf = RealtimeLens::kHalf;
+constexpr int kSide = 64;                           // cells of a shape
+constexpr float kHalf = float(LampKernels::kHalf);  // half its side, in radii
 
-// Rings of 6, 12, … taps: each stands for as much of the disc.
-void add_taps(std::vector<Rgba>& fours) {
-    fours.push_back({0, 0, 0, 0});
-    for (int ring = 1; ring <= RealtimeLens::kRings; ++ring)
-        for (int i = 0; i < 6 * ring; ++i) {
-            const double angle = 2 * std::numbers::pi * (i + 0.5 * (ring % 2)) / (6 * ring);
-            const double r = ring / (RealtimeLens::kRings + 0.5);
-            fours.push_back({float(r * std::cos(angle)), float(r * std::sin(angle)), float(r), 0});
+// A spiral: each tap stands for as much of the disc, and none lie on rings. Cells are read a little finer
+// than taps are apart, because their means would soften the disc's rim.
+void add_taps(int taps, std::vector<Rgba>& fours) {
+    const double finer = taps > 64 ? 0.8 : 0.6;
+    const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
+    fours.push_back({float(taps), float(finer * std::sqrt(std::numbers::pi / taps)), 0, 0});
+    for (int set = 0; set < RealtimeLens::kSets; ++set)
+        for (int i = 0; i < RealtimeLens::kMostTaps; ++i) {
+            const double area =
+                i == 0 || i >= taps ? 0 : i + 0.25 * set - 0.375;  // the first is for tiny discs
+            const double r = std::sqrt(area / (taps - 0.5)),
+                         angle = golden * i + 0.5 * std::numbers::pi * set;
+            fours.push_back({float(r * std::cos(angle)), float(r * std::sin(angle)), float(r),
+                             float(std::exp2(-8 * r * r))});
         }
 }
 
@@ -36,13 +42,16 @@ Rgba mean_weight(const PointSpread& spread, double x0, double y0, double side, f
     return sum;
 }
 
-void add_shape(const PointSpread& spread, double radius_px, std::vector<Rgba>& fours) {
+// The disc over -kHalf...kHalf radii; 1 is the mean over an even disc.
+std::vector<Rgba> shape_of(const PointSpread& spread, double radius_px) {
+    std::vector<Rgba> shape;
     const double cell = 2.0 * double(kHalf) / kSide * radius_px;
     const auto scale = float(std::numbers::pi * radius_px * radius_px);
     for (int y = 0; y < kSide; ++y)
         for (int x = 0; x < kSide; ++x)
-            fours.push_back(
+            shape.push_back(
                 mean_weight(spread, (x - 0.5 * kSide) * cell, (y - 0.5 * kSide) * cell, cell, scale));
+    return shape;
 }
 
 // A kernel of its own radius made into those of lamps' radii.
@@ -72,55 +81,61 @@ void add_lamp_kernels(const PointSpread& spread, double radius_px, std::size_t b
 }
 
 // Weight of a tap for a surface blurred by a fraction of the disc's radius. Few taps count for the smallest
-// radii, so these are even discs: a shape with a dark middle would lose them. Same as realtime_gather.comp.
-float weight_of(const std::vector<Rgba>& fours, std::size_t shape, float u, float v, float share) {
+// radii, so these are even discs: a shape with a dark middle would lose them.
+Rgba weight_of(const std::vector<Rgba>& shape, const Rgba& tap, float share) {
+    const float u = -tap.r / share, v = -tap.g / share;
     const int x = int(std::floor((u / kHalf * 0.5f + 0.5f) * kSide));
     const int y = int(std::floor((v / kHalf * 0.5f + 0.5f) * kSide));
     const bool is_inside = x >= 0 && y >= 0 && x < kSide && y < kSide;
-    const float own = is_inside ? fours[shape + std::size_t(y * kSide + x)].a : 0;
+    const Rgba own = is_inside ? shape[std::size_t(y * kSide + x)] : Rgba{};
     const float t = std::clamp((share - 0.15f) / 0.2f, 0.0f, 1.0f), shaped = t * t * (3 - 2 * t);
-    const float even = u * u + v * v <= 1 ? 1 : 0;
-    return even + shaped * (own - even);
+    const float even = u * u + v * v <= 1 ? 1 - shaped : 0;
+    return Rgba{even, even, even, even} + shaped * own;
 }
 
-// Sum of the taps' weights over a disc, for a plane that is blurred by a fraction of its radius.
-float counted(const std::vector<Rgba>& fours, std::size_t shape, float share) {
-    float sum = 0;
-    for (int i = 0; i < RealtimeLens::kTaps; ++i) {
-        const Rgba& tap = fours[std::size_t(i)];
-        sum += weight_of(fours, shape, -tap.r / share, -tap.g / share, share);
+// A plane blurred by any share of the disc's radius keeps its light.
+void add_weights(const std::vector<Rgba>& shape, std::vector<Rgba>& fours) {
+    constexpr float kLeast = 0.05f;
+    constexpr int kShares = RealtimeLens::kShares;
+    const auto taps = std::size_t(fours[0].r);
+    for (std::size_t set = 0; set < RealtimeLens::kSets; ++set) {
+        const std::size_t begins = fours.size(), first = 1 + set * RealtimeLens::kMostTaps;
+        fours.resize(begins + std::size_t(RealtimeLens::kMostTaps) * kShares);
+        for (int k = 0; k < kShares; ++k) {
+            const float share = std::max(float(k) / (kShares - 1), 1e-3f);
+            const auto at = [&](std::size_t i) -> Rgba& {
+                return fours[begins + i * kShares + std::size_t(k)];
+            };
+            float sum = 0;
+            for (std::size_t i = 0; i < taps; ++i)
+                sum += (at(i) = weight_of(shape, fours[first + i], share)).a;
+            for (std::size_t i = 0; i < taps; ++i) at(i) = 1 / std::max(sum, kLeast) * at(i);
+        }
     }
-    return sum;
 }
 
 }  // namespace
 
+int realtime_taps(Quality quality) { return quality == Quality::Draft ? 48 : RealtimeLens::kMostTaps; }
+
 RealtimeLens realtime_lens(const kernel::LensModel& lens, kernel::FieldPosition field, double near_radius_px,
-                           double far_radius_px) {
+                           double far_radius_px, int taps) {
     // Large enough to show the shape, no larger than can be made in a moment.
     constexpr double kLeastPx = 16, kMostPx = 64;
     RealtimeLens made;
     std::vector<Rgba>& fours = made.fours;
     fours.reserve(RealtimeLens::kFours);
-    add_taps(fours);
-    const std::size_t norms = fours.size();
-    fours.resize(norms + RealtimeLens::kNorms);
-    const std::size_t near = fours.size(), far = near + std::size_t(kSide) * kSide;
+    add_taps(taps, fours);
     const double near_px = std::clamp(near_radius_px, kLeastPx, kMostPx),
                  far_px = std::clamp(far_radius_px, kLeastPx, kMostPx);
     const PointSpread near_spread = lens.point_spread(-near_px, field),
                       far_spread = lens.point_spread(far_px, field);
-    add_shape(near_spread, near_px, fours);
-    add_shape(far_spread, far_px, fours);
+    add_weights(shape_of(near_spread, near_px), fours);
+    add_weights(shape_of(far_spread, far_px), fours);
     const std::size_t lamps = fours.size();
     fours.resize(lamps + 2 * std::size_t(LampKernels::kSteps));
     add_lamp_kernels(near_spread, near_px, lamps, fours);
     add_lamp_kernels(far_spread, far_px, lamps + LampKernels::kSteps, fours);
-    for (int i = 0; i < RealtimeLens::kNorms; ++i) {
-        const float share = std::max(float(i) / (RealtimeLens::kNorms - 1), 1e-3f);
-        fours[norms + std::size_t(i)] = {1 / std::max(counted(fours, near, share), 0.05f),
-                                         1 / std::max(counted(fours, far, share), 0.05f), 0, 0};
-    }
     return made;
 }
 

@@ -2,6 +2,7 @@
 // behind it, as a device's programs read it, and a picture.
 #pragma once
 
+#include "petzval/engine_options.h"
 #include "petzval/image.h"
 
 #include "kernel/model/lens_model.h"
@@ -33,23 +34,27 @@ struct LampKernels {
     }
 };
 
-// Fours of floats, one after the other: taps over the unit disc (x, y, distance from the middle, 0); for
-// shares of the disc's radius 0…1, what makes the taps of a plane of that radius sum to 1 (near, far, 0, 0);
-// the shape in front of focus and behind it, kSide x kSide each over -kHalf…kHalf pupil radii, r, g, b and a:
-// 1 is the mean over the unit disc. Then LampKernels.
+// Fours of floats, one after the other: number of taps, side of the squares that they read on a disc of
+// radius 1, 0, 0; taps over that disc (x, y, distance from the middle, weight near it), kSets of kMostTaps,
+// for the four cells of each square, because their taps together are as good as four times as many; weights
+// of taps for light blurred by a share of the disc's radius, kShares of them from 0 to 1 for each tap of
+// each set, in front of focus and then behind it: r, g, b and a, each of which sums to 1 over the taps. Then
+// LampKernels.
 struct RealtimeLens {
-    static constexpr int kRings = 6, kTaps = 1 + 3 * kRings * (kRings + 1);
-    static constexpr int kNorms = 64, kSide = 64;
-    static constexpr float kHalf = float(LampKernels::kHalf);
-    static constexpr std::size_t kFours = std::size_t(kTaps) + kNorms + 2 * std::size_t(kSide) * kSide +
+    static constexpr int kMostTaps = 127, kSets = 4, kShares = 64;
+    static constexpr std::size_t kWeights = std::size_t(1) + kSets * kMostTaps;  // where they begin
+    static constexpr std::size_t kFours = kWeights + 2 * std::size_t(kSets) * kMostTaps * kShares +
                                           2 * (LampKernels::kSteps + LampKernels::weights());
     static constexpr std::size_t kBytes = kFours * sizeof(Rgba);
     std::vector<Rgba> fours;  // kFours
 };
 
-// The shapes that a lens has at these radii, in pixels, in one place of the field.
+// Number of taps of a quality.
+int realtime_taps(Quality quality);
+// The shapes that a lens has at these radii, in pixels, in one place of the field. Requires: 1 to kMostTaps
+// taps.
 RealtimeLens realtime_lens(const kernel::LensModel& lens, kernel::FieldPosition field, double near_radius_px,
-                           double far_radius_px);
+                           double far_radius_px, int taps);
 
 struct RealtimePlan {
     View<const Rgba> colour;

@@ -12,7 +12,7 @@ namespace {
 std::shared_ptr<const engine::RealtimeLens> shapes_of(const kernel::LensModel& lens) {
     constexpr double kRadiusPx = 45;  // shapes are those of discs this large: the largest that lamps have
     return std::make_shared<const engine::RealtimeLens>(
-        engine::realtime_lens(lens, {}, kRadiusPx, kRadiusPx));
+        engine::realtime_lens(lens, {}, kRadiusPx, kRadiusPx, engine::realtime_taps(Quality::Standard)));
 }
 
 }  // namespace

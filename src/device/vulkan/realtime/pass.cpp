@@ -204,19 +204,21 @@ void RealtimePass::order(VkCommandBuffer commands, VkPipelineStageFlags from, Vk
     vk_.vkCmdPipelineBarrier(commands, from, to, 0, 1, &barrier, 0, nullptr, 0, nullptr);
 }
 
-// After all of the frame before: its images are ours again, and the lens is written.
+// After all of the frame before: its images are ours again, and the lens is written if it changed.
 void RealtimePass::take_lens(VkCommandBuffer commands, Slot& slot) {
     constexpr VkPipelineStageFlags kCompute = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
+    std::shared_ptr<const engine::RealtimeLens> chosen;
     {
         const std::lock_guard lock(mutex_);
-        if (slot.has != chosen_) {
-            slot.has = chosen_;
-            std::memcpy(slot.lens.mapped(), slot.has->fours.data(), engine::RealtimeLens::kBytes);
-        }
+        chosen = chosen_;
     }
-    order(commands, kCompute, 0, VK_PIPELINE_STAGE_TRANSFER_BIT);
-    const VkBufferCopy copy = {slot.lens.offset(), lens_.offset(), engine::RealtimeLens::kBytes};
-    vk_.vkCmdCopyBuffer(commands, slot.lens.buffer(), lens_.buffer(), 1, &copy);
+    if (on_device_ != chosen) {
+        std::memcpy(slot.lens.mapped(), chosen->fours.data(), engine::RealtimeLens::kBytes);
+        order(commands, kCompute, 0, VK_PIPELINE_STAGE_TRANSFER_BIT);
+        const VkBufferCopy copy = {slot.lens.offset(), lens_.offset(), engine::RealtimeLens::kBytes};
+        vk_.vkCmdCopyBuffer(commands, slot.lens.buffer(), lens_.buffer(), 1, &copy);
+        on_device_ = std::move(chosen);
+    }
     std::array<VkImageMemoryBarrier, 2> fresh = {};
     for (std::size_t i = 0; i < fresh.size(); ++i) {
         fresh[i].sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER;

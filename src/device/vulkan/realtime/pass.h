@@ -78,8 +78,7 @@ private:
     struct Slot {
         std::array<VkDescriptorSet, kSteps> sets = {};
         Push push;
-        Piece lens;                                       // written by the host
-        std::shared_ptr<const engine::RealtimeLens> has;  // what is in it
+        Piece lens;  // written by the host
     };
 
     void make();
@@ -111,6 +110,7 @@ private:
     std::vector<Slot> slots_;
     std::mutex mutex_;  // of the next line
     std::shared_ptr<const engine::RealtimeLens> chosen_;
+    std::shared_ptr<const engine::RealtimeLens> on_device_;  // of the last recording
 };
 
 }  // namespace petzval::device::vulkan

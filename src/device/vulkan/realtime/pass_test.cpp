@@ -18,21 +18,28 @@
 namespace petzval::device::vulkan {
 namespace {
 
-std::shared_ptr<const engine::RealtimeLens> ideal_lens() {
+std::shared_ptr<const engine::RealtimeLens> ideal_lens(int taps = 48) {
     const kernel::Mount mount{{50, 36, 1.4, 2}, 64, 48};
     return std::make_shared<const engine::RealtimeLens>(
-        engine::realtime_lens(**kernel::make_lens(LensChoice{}, mount), {}, 20, 20));
+        engine::realtime_lens(**kernel::make_lens(LensChoice{}, mount), {}, 20, 20, taps));
 }
 
 // A plane at any radius keeps its light: what taps count is 1, whatever share of the disc they are.
 TEST(RealtimeLens, CountsOneOfAPlaneAtEveryRadius) {
-    const engine::RealtimeLens lens = *ideal_lens();
-    ASSERT_EQ(lens.fours.size(), engine::RealtimeLens::kFours);
-    const std::size_t norms = engine::RealtimeLens::kTaps;
-    const Rgba last = lens.fours[norms + engine::RealtimeLens::kNorms - 1];
-    EXPECT_NEAR(last.r * engine::RealtimeLens::kTaps, 1, 0.06) << "taps over the whole disc";
-    EXPECT_NEAR(last.g, last.r, 1e-6) << "a round lens is the same on both sides";
-    EXPECT_NEAR(lens.fours[norms].r, 1, 1e-6) << "the smallest disc is one tap";
+    using engine::RealtimeLens;
+    for (const int taps : {24, 48, RealtimeLens::kMostTaps}) {
+        const RealtimeLens lens = *ideal_lens(taps);
+        ASSERT_EQ(lens.fours.size(), RealtimeLens::kFours);
+        EXPECT_EQ(lens.fours[0].r, float(taps));
+        constexpr std::size_t kShares = RealtimeLens::kShares, kOfSet = RealtimeLens::kMostTaps * kShares;
+        for (std::size_t set = 0; set < 2 * RealtimeLens::kSets; ++set)  // in front of focus, then behind it
+            for (std::size_t share = 0; share < kShares; ++share) {
+                float sum = 0;
+                for (std::size_t i = 0; i < std::size_t(taps); ++i)
+                    sum += lens.fours[RealtimeLens::kWeights + set * kOfSet + i * kShares + share].a;
+                EXPECT_NEAR(sum, 1, 1e-5) << taps << " taps, share " << share;
+            }
+    }
 }
 
 std::string said_of(bool plant) {

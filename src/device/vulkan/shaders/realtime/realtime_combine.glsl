@@ -56,7 +56,8 @@ Fine fine(vec4 sharp, float radius, float back_px, float near_px) {
             const vec2 disc = window_discs[there];
             const float covers = clamp(min(disc.x, opening) + (0.5 - distances[abs(y)][abs(x)]), 0.0, 1.0);
             const float area = covers * max(disc.y, of_opening);
-            back += area * window[there], back_area += area;
+            back += area * window[there];
+            back_area += area;
         }
     far = last_offset(near_px);  // 0: what is in focus, a little before it
     for (int y = -far; y <= far; ++y)
@@ -64,7 +65,8 @@ Fine fine(vec4 sharp, float radius, float back_px, float near_px) {
             const int there = own + y * kAcross + x;
             const vec2 disc = window_discs[there];
             const float area = disc.y * clamp((0.5 - distances[abs(y)][abs(x)]) - disc.x, 0.0, 1.0);
-            sum.near += area * window[there], sum.area += area;
+            sum.near += area * window[there];
+            sum.area += area;
         }
     if (back_area > 1e-3) sum.back = back / back_area;
     else if (radius < 0) {
@@ -95,7 +97,8 @@ vec4 back_at(ivec2 pixel, float radius, out float is_known) {
     for (int i = 0; i < 4; ++i) {
         const ivec2 d = ivec2(i & 1, i >> 1), cell = clamp(low + d, ivec2(0), last);
         const vec4 area = texelFetch(gathered, ivec3(cell, kGatheredArea), 0);
-        const vec2 near_it = mix(1 - share, share, vec2(d));
+        // Four cells have the taps of four sets: a wide disc shows the mean of them.
+        const vec2 near_it = mix(mix(1 - share, share, vec2(d)), vec2(0.5), smoothstep(16.0, 40.0, radius));
         const float own = gathered_radius(radius);
         float alike = radius > 0 ? exp2(-4 * abs(area.y - own) / (1 + 0.5 * radius)) : 1.0;
         // If neither is nearly sharp, both know the light between them.
@@ -122,8 +125,16 @@ void main() {
     if (is_fine) own = fine(own.back, radius, reaches.y, reaches.z);
     vec4 near_lamps = vec4(0), back_lamps = vec4(0);
     add_all_lamps(pixel, reaches.x, near_lamps, back_lamps);
-    const vec4 near = textureLod(gathered, vec3(place, kGatheredNear), 0);
-    float area = textureLod(gathered, vec3(place, kGatheredArea), 0).x, is_known;
+    vec4 near = vec4(0);
+    float area = 0, is_known;
+    if (reaches.x > 0.5) {
+        const vec2 half_cell = 0.5 * smoothstep(4.0, 12.0, reaches.x) / vec2(8 * at.tiles);
+        for (int i = 0; i < 4; ++i) {
+            const vec2 there = place + half_cell * (2 * vec2(i & 1, i >> 1) - 1);
+            near += 0.25 * textureLod(gathered, vec3(there, kGatheredNear), 0);
+            area += 0.25 * textureLod(gathered, vec3(there, kGatheredArea), 0).x;
+        }
+    }
     const vec4 back = back_at(pixel, radius, is_known);
     const float hidden = blurred_share(-radius);
     // A completely near pixel has no sharp part; some of its background may be known.

@@ -10,31 +10,28 @@ layout(std430, binding = 2) readonly buffer Reach { vec4 reach[]; };  // realtim
 layout(binding = 3, rgba16f) writeonly uniform image2DArray gathered;
 #include "realtime.glsl"
 
-const int kTaps = 127, kNorms = 64, kSide = 64, kFirstNorm = kTaps, kNearShape = kFirstNorm + kNorms,
-          kFarShape = kNearShape + kSide * kSide;
-const float kShapeHalf = 1.25;  // of the pupil's radius: half a side of the shape
-const float kTapsAcross = 6.5;  // between the middle and the rim
+const int kMostTaps = 127, kSets = 4, kShares = 64, kFirstWeight = 1 + kSets * kMostTaps, kNearSide = kFirstWeight,
+          kFarSide = kFirstWeight + kSets * kMostTaps * kShares;
 const float kLeastArea = 1e-4;
 const float kNearestPx = 8;  // where what is hidden is looked for first
 
-// engine/gather/realtime_plan.cpp: what a tap counts of something blurred by a share of the disc's radius.
-vec4 shape(int first, vec2 tap, float share) {
-    const vec2 u = -tap / share;
-    const ivec2 i = ivec2(floor((u / kShapeHalf * 0.5 + 0.5) * float(kSide)));
-    const bool is_inside = all(greaterThanEqual(i, ivec2(0))) && all(lessThan(i, ivec2(kSide)));
-    const vec4 own = is_inside ? lens[first + i.y * kSide + i.x] : vec4(0);
-    return mix(vec4(dot(u, u) <= 1 ? 1 : 0), own, smoothstep(0.15, 0.35, share));
+int first_tap;  // of the cell's own set, from the first of all
+vec4 tap_of(int i) { return lens[1 + first_tap + i]; }
+// Weight of a tap for light blurred by a share of the disc's radius: the lens's shape, normalised so that a plane keeps
+// its light (engine/gather/realtime_plan.cpp).
+vec4 weight_of(int side, int tap, float share) {
+    return lens[side + (first_tap + tap) * kShares + int(clamp(share, 0.0, 1.0) * float(kShares - 1) + 0.5)];
 }
-vec2 norm(float share) {
-    const float place = clamp(share, 0.0, 1.0) * float(kNorms - 1);
-    const int i = min(int(place), kNorms - 2);
-    return mix(lens[kFirstNorm + i].xy, lens[kFirstNorm + i + 1].xy, place - float(i));
+// A disc of cells: reads at middle + tap * scale, from this level.
+struct Disc {
+    vec2 middle, scale;
+    float level;
+};
+Disc disc_of(vec2 middle, float radius_px) {
+    const vec2 texel = 1 / vec2(8 * at.tiles);
+    return Disc(middle * texel, 0.5 * radius_px * vec2(1, at.aspect) * texel, max(0.0, log2(0.5 * radius_px * lens[0].y)));
 }
-// Read position of a tap over a disc of this radius.
-vec3 place_of(vec2 middle, vec2 tap, float radius_px, int layer) {
-    return vec3((middle + 0.5 * radius_px * vec2(tap.x, tap.y * at.aspect)) / vec2(8 * at.tiles), layer);
-}
-float level_of(float radius_px) { return max(0.0, log2(radius_px / (2 * kTapsAcross))); }
+vec4 read_cells(Disc disc, vec2 tap, int layer) { return textureLod(cells, vec3(disc.middle + tap * disc.scale, layer), disc.level); }
 
 // Adds what a tap says of something hidden: bright things hide behind nothing, as far as is known.
 void guess(vec4 there, float there_area, float weight, inout vec4 light, inout float area) {
@@ -56,26 +53,30 @@ struct Sum {
     float less_px, more_px;
 };
 Sum back_over(vec2 middle, float radius, float own_px, int which) {
-    const float level = level_of(radius);
+    const Disc disc = disc_of(middle, radius);
+    const float per_radius = 1 / radius, per_own = 1 / own_px, least = 0.5 * per_radius;
+    const int taps = int(lens[0].x);
     Sum sum = Sum(vec4(0), 0, 0, 0, 0);
-    for (int i = 0; i < kTaps; ++i) {
-        const vec2 tap = lens[i].xy;
-        const vec4 there = textureLod(cells, place_of(middle, tap, radius, kBack), level);
+    vec2 less_sum = vec2(0);
+    for (int i = 0; i < taps; ++i) {
+        const vec2 tap = tap_of(i).xy;
+        const vec4 there = read_cells(disc, tap, kBack);
         if (there.x == 0) continue;
-        const float reaches = back_radius(there), ratio = reaches / own_px;
+        const float reaches = back_radius(there), ratio = reaches * per_own;
         const float less = smoothstep(kAsBlurred, kLessBlurred, ratio), more = smoothstep(kUpTo, kMoreBlurred, ratio);
-        if (there.x > 0.01) {
-            if (less > 0) sum.less_px = max(sum.less_px, reaches);
+        if (which == kAlike && there.x > 0.01) {
+            less_sum += less * there.x * vec2(1, reaches * reaches);
             if (more > 0) sum.more_px = max(sum.more_px, reaches);
         }
-        const float share = clamp(reaches, 0.5, radius) / radius;
-        const vec4 w = norm(share).y * shape(kFarShape, tap, share);
-        sum.more_area += more * w.a * there.x;
+        const vec4 w = weight_of(kFarSide, i, max(reaches * per_radius, least));
         const float counts = vec3(1 - less - more, less, more)[which];
+        if (which == kAlike) sum.more_area += more * w.a * there.x;
         if (counts * w.a == 0) continue;
-        sum.light += counts * w * textureLod(cells, place_of(middle, tap, radius, kBackLight), level);
+        sum.light += counts * w * read_cells(disc, tap, kBackLight);
         sum.area += counts * w.a * there.x;
     }
+    // Not the largest: a mean of cells beside a silhouette has a radius between both.
+    if (less_sum.x > 0) sum.less_px = min(1.2 * sqrt(less_sum.y / less_sum.x), kAsBlurred * own_px);
     return sum;
 }
 // Blurs the light behind focus as a cell of this radius sees it, in three layers. The cell's own disc is the opening
@@ -103,21 +104,23 @@ vec4 hidden_of(vec2 middle, float own_px, float most_px, out float is_known) {
     vec4 light = vec4(0);
     float area = 0, back_area = 0, back_px = 0;
     for (float radius = min(kNearestPx, most_px);; radius = min(4 * radius, most_px)) {
-        const float level = level_of(radius);
-        for (int i = 0; i < kTaps; ++i) {
-            const vec2 tap = lens[i].xy;
-            const float w = exp2(-8 * lens[i].z * lens[i].z);
-            const vec4 back = textureLod(cells, place_of(middle, tap, radius, kBack), level);
+        const Disc disc = disc_of(middle, radius);
+        const int taps = int(lens[0].x);
+        for (int i = 0; i < taps; ++i) {
+            const vec4 tap_at = tap_of(i);
+            const vec2 tap = tap_at.xy;
+            const float w = tap_at.w;
+            const vec4 back = read_cells(disc, tap, kBack);
             if (back.z > kLeastArea) {
-                guess(textureLod(cells, place_of(middle, tap, radius, kBackLight), level) * (back.z / back.x), back.z, w,
+                guess(read_cells(disc, tap, kBackLight) * (back.z / back.x), back.z, w,
                       light, area);
                 back_px += w * back.z * back_radius(back);
                 back_area += w * back.z;
             }
-            const vec3 near = textureLod(cells, place_of(middle, tap, radius, kNear), level).xyz;
+            const vec3 near = read_cells(disc, tap, kNear).xyz;
             const float behind = near.x > kLeastArea ? w * smoothstep(0.8, 0.6, near_radius(near) / own_px) : 0.0;
             if (behind > 0)
-                guess(textureLod(cells, place_of(middle, tap, radius, kNearLight), level), near.x, behind, light, area);
+                guess(read_cells(disc, tap, kNearLight), near.x, behind, light, area);
         }
         if (area > 0.05 || radius == most_px) break;
     }
@@ -131,16 +134,18 @@ vec4 hidden_of(vec2 middle, float own_px, float most_px, out float is_known) {
 }
 
 vec4 near_of(vec2 middle, float radius, out float area) {
-    const float level = level_of(radius);
+    const Disc disc = disc_of(middle, radius);
+    const float per_radius = 1 / radius, least = 0.5 * per_radius;
+    const int taps = int(lens[0].x);
     vec4 light = vec4(0);
     area = 0;
-    for (int i = 0; i < kTaps; ++i) {
-        const vec2 tap = lens[i].xy;
-        const vec3 there = textureLod(cells, place_of(middle, tap, radius, kNear), level).xyz;
+    for (int i = 0; i < taps; ++i) {
+        const vec2 tap = tap_of(i).xy;
+        const vec3 there = read_cells(disc, tap, kNear).xyz;
         if (there.x < kLeastArea) continue;
-        const float share = clamp(near_radius(there), 0.5, radius) / radius;
-        const vec4 w = norm(share).x * shape(kNearShape, tap, share);
-        light += w * textureLod(cells, place_of(middle, tap, radius, kNearLight), level);
+        const vec4 w = weight_of(kNearSide, i, max(near_radius(there) * per_radius, least));
+        if (w.a == 0) continue;
+        light += w * read_cells(disc, tap, kNearLight);
         area += w.a * there.x;
     }
     return light;
@@ -150,6 +155,7 @@ void main() {
     const ivec2 cell = ivec2(gl_GlobalInvocationID.xy), tile = ivec2(gl_WorkGroupID.xy);
     const float near_px = reach[tile.y * at.tiles.x + tile.x].x;
     const vec2 middle = vec2(cell) + 0.5;
+    first_tap = kMostTaps * ((cell.x & 1) + 2 * (cell.y & 1));
     const vec4 own = texelFetch(cells, ivec3(cell, kBack), 0);
     const bool has = own.z > 0.02;
     float is_known = 1, area = 0;

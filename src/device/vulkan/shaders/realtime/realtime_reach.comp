@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 64) in;
 
-// Largest radius in front of focus; of what is blurred pixel by pixel, behind focus and in front of it.
+// Largest radius in front of focus; largest radius of pixels blurred pixel by pixel, behind focus and in front of it.
 layout(std430, binding = 0) readonly buffer Tiles { vec4 tiles[]; };
 layout(std430, binding = 1) writeonly buffer Reach { vec4 reach[]; };  // the same, as it reaches a tile
 layout(std430, binding = 2) readonly buffer Lamps { uvec4 lamps[]; };
@@ -99,7 +99,7 @@ void main() {
             all += uint(bitCount(lamp.x) + bitCount(lamp.y));
         }
     boxes[own] = box;
-    // What is behind focus shows through a pixel's own disc: no other tile makes it wider.
+    // Light behind focus is seen through a pixel's own disc, so other tiles do not widen it.
     reach[own] = vec4(most, tiles[own].y, fine_near, 0);
     const uvec4 lamp = lamps[own];
     kept[own] = uvec4(all > kMostLamps ? thinned(tile, lamp.xy, all) : lamp.xy, lamp.zw);

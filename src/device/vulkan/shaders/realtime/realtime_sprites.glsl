@@ -3,7 +3,7 @@ layout(std430, binding = 5) readonly buffer Lens { vec4 lens[]; };    // engine/
 layout(std430, binding = 6) readonly buffer Lamps { uvec4 lamps[]; };  // realtime_reach.comp: kept
 layout(std430, binding = 7) readonly buffer Boxes { ivec4 boxes[]; };  // realtime_reach.comp
 
-const int kLampSteps = 14, kFirstStep = 127 + 64 + 2 * 64 * 64;
+const int kLampSteps = 14, kFirstStep = 1 + 4 * 127 * (1 + 2 * 64);
 const float kStepAt = 0.5;  // pixels: the radius of the first kernel; the next are sqrt(2) times as wide each
 
 // The share of its light that a lamp sends to an offset in pixels.
