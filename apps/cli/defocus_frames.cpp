@@ -53,10 +53,11 @@ void TrackFlags::add_to(Verb& verb) {
                "fill hidden background from up to N neighbouring frames before and after, matched by motion "
                "vectors, or by worldToCamera and depth (default 0)",
                parse_index, temporal)
-        .value("--motion", "LAYER",
-               "motion vectors for --temporal, such as Vector or forward; off: cameras only; still: the "
-               "camera stands still; flow: motion estimated from colour and depth (default: found by name)",
-               parse_text, motion)
+        .value(
+            "--motion", "LAYER",
+            "motion vectors for --temporal, such as Vector or forward; off: cameras only; still: the "
+            "camera stands still; estimate: motion estimated from colour and depth (default: found by name)",
+            parse_text, motion)
         .value("--motion-scale", "S[,SY]",
                "multiply vectors to get pixels per frame, +x right and +y up: 2 for a shutter of half a "
                "frame, -1 for the other direction (default 1)",
@@ -79,7 +80,7 @@ MotionReading TrackFlags::motion_reading() const {
     using From = MotionReading::From;
     From from = From::File;
     if (motion == "still") from = From::Still;
-    if (motion == "flow") from = From::Flow;
+    if (motion == "estimate") from = From::Flow;
     const bool reads = motion != "off" && from == From::File;
     return {
         .from = from, .wanted = reads, .layer = reads ? motion : "", .scale_x = scale.x, .scale_y = scale.y};
@@ -107,7 +108,7 @@ bool is_sequence(const DefocusFlags& flags) {
                                       {flags.track.motion_scale.has_value(), "--motion-scale"}})
         if (given && flags.track.temporal == 0)
             throw UsageError(std::string(name) + " has no effect without --temporal");
-    for (const char* without : {"off", "still", "flow"})
+    for (const char* without : {"off", "still", "estimate"})
         if (flags.track.motion == without && flags.track.motion_scale)
             throw UsageError(std::string("--motion-scale has no effect with --motion ") + without);
     if (flags.frames.missing == MissingFiles::Black && flags.view != ShotView::Beauty)

@@ -58,7 +58,7 @@ MadeWith made_with(const ShotRunSettings& settings, const FrameContext& context)
         made.add("shot.temporal", double(settings.temporal));
         using From = MotionReading::From;
         if (settings.motion.from != From::File)
-            made.add("read.motion.layer", settings.motion.from == From::Still ? "still" : "flow");
+            made.add("read.motion.layer", settings.motion.from == From::Still ? "still" : "estimate");
         else if (!settings.motion.wanted)
             made.add("read.motion.layer", "off");
         if (!settings.motion.layer.empty()) made.add("read.motion.layer", settings.motion.layer);

@@ -66,16 +66,17 @@ Status check_motion(const ShotRunSettings& of_frame) {
     const auto frame = read_frame(source.path, source.read);
     if (!frame || !frame->motion.empty()) return Done{};
     const bool has_matrix = camera.camera_from_world.has_value();
-    return Error{ErrorCode::InvalidArgument,
-                 source.path +
-                     ": shot.temporal has to know how the camera or what it sees moves, and the file "
-                     "has neither " +
-                     (has_matrix ? "focal length and sensor width" : "a worldToCamera matrix") +
-                     " nor motion vectors: " +
-                     (has_matrix ? "give camera.focal_length_mm and camera.sensor_width_mm"
-                                 : "render it with one of them") +
-                     ", name the layer of the vectors with read.motion.layer (flow: estimate the motion; "
-                     "still: the camera stands still), or leave out shot.temporal"};
+    return Error{
+        ErrorCode::InvalidArgument,
+        source.path +
+            ": shot.temporal has to know how the camera or what it sees moves, and the file "
+            "has neither " +
+            (has_matrix ? "focal length and sensor width" : "a worldToCamera matrix") +
+            " nor motion vectors: " +
+            (has_matrix ? "give camera.focal_length_mm and camera.sensor_width_mm"
+                        : "render it with one of them") +
+            ", name the layer of the vectors with read.motion.layer (estimate: from colour and depth; "
+            "still: the camera stands still), or leave out shot.temporal"};
 }
 
 }  // namespace petzval::sequence
