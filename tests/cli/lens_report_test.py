@@ -35,8 +35,8 @@ class LensReport(CommandLineTest):
     def test_a_lens_of_curves_has_every_figure(self):
         self.succeed("lens", "report", "doublet", "-o", "sheet.html")
         text = self.check_page("sheet.html", 20)
-        for words in ("3 wavelengths", "31 wavelengths", "squared", "--cats-eye", "--coma", "Magnification 0.5",
-                      "Magnification 2", "pinhole", "a line", "Contrast at f/2", "wavefront"):
+        for words in ("3 wavelengths", "31 wavelengths", "squared", "--cats-eye", "--coma", "b′/f = 0.5",
+                      "b′/f = 2", "pinhole", "a line", "Contrast at f/2", "wavefront"):
             self.assertIn(words, text)
         self.assertLess(os.path.getsize(self.path("sheet.html")), 5e6)
 
