@@ -1,7 +1,4 @@
-// Which neighbouring pixels show one surface, told from their signed circles of confusion.
-//
-// The radius is linear in 1/depth, and 1/depth of a plane is linear in image position: on a flat surface the
-// radius changes by the same amount from pixel to pixel, however steep the surface is.
+// Finds neighbouring pixels of one surface, from their signed circles of confusion.
 #pragma once
 
 #include "petzval/image.h"

@@ -1,5 +1,5 @@
-// What one picture with depth does not say: which part of a silhouette's pixel belongs to which surface, and
-// what lies behind a surface near its edge, where a lens looks past it.
+// Estimates two things that a picture with depth does not state: the share of each surface in a silhouette's
+// pixel, and the surfaces behind a near edge, where a lens looks past it.
 #pragma once
 
 #include "petzval/image.h"
@@ -20,14 +20,14 @@
 
 namespace petzval::engine {
 
-// A picture, and what its surfaces look like without the lamps on them.
+// A picture, and its surfaces without the light of lamps.
 struct LitPicture {
     View<const Rgba> colour;
     Dim dim_of;  // empty: it shows no lamps
     Rgba dim(int x, int y) const { return dim_of ? dim_of(x, y, colour(x, y)) : colour(x, y); }
 };
 
-// A pixel of a silhouette taken apart. The renderer filtered its colour over the pixel and beyond, but its
+// A separated pixel of a silhouette. The renderer filtered its colour over the pixel and beyond, but its
 // depth is that of one point:
 //     colour = near_colour + (1 - near_share) far_colour + far_light.
 struct Mixture {
@@ -39,26 +39,26 @@ struct Mixture {
     Rgba far_light;            // of lamps behind the nearer surface, as the pixel shows it; a is 0
     float near_coc_px = 0, far_coc_px = 0, lamp_coc_px = 0;
     float lamps_behind = 0;  // 0…1: how much of the light of lamps here is of lamps behind the nearer surface
-    // What is known of the nearer surface beforehand: its colour where it fills pixels, the variance of that
-    // (mean of the channels), and the share that the shape of the silhouette tells.
+    // Known of the nearer surface: its colour where it fills pixels, the variance of that (mean of the
+    // channels), and the share expected from the silhouette's shape.
     Rgba near_clean;
     float near_variance = 0, share_by_shape = 0;
 };
 
 using Mixtures = SparseRows<Mixture>;
 
-// How much is looked at to take a pixel of a silhouette apart.
+// Extent of the search that separates a silhouette's pixel.
 struct UnmixRule {
     int clean_within_px = int(completion_model.clean_within_px);  // clean colours are looked for
     bool along_outline = true;  // the share that its shape tells is a mean along the outline
 };
 
-// Finds every pixel that touches a silhouette (also diagonally), and takes apart those that show the farther
-// surface: the clean colours of both come from their nearest pixels that touch no silhouette (of a thin thing
-// that has none, from its pixels least like the far side); the share is the one expected of all that explain
-// the pixel, and what it leaves unexplained is the farther surface's detail. Of those that show the nearer
-// surface hardly anything of the farther one is to be seen: it is filled in first, then unmix_nearer().
-// Light of lamps goes to one side whole: to that whose pixels nearby show more of it.
+// Finds every pixel that touches a silhouette (also diagonally), and separates those that show the farther
+// surface. The clean colours of both surfaces come from their nearest pixels that touch no silhouette (for a
+// thin thing without such pixels, from its pixels least like the far side). The share is the mean of all
+// shares that explain the pixel; the unexplained rest is the farther surface's detail. Pixels that show the
+// nearer surface show hardly any of the farther one: it is filled in first, then unmix_nearer() separates
+// them. Light of a lamp goes to one side completely: to the side whose pixels nearby show more of it.
 Mixtures unmix_silhouettes(const LitPicture& picture, View<const float> coc_px,
                            View<const unsigned char> connected, Workers& workers, const UnmixRule& rule = {});
 
@@ -87,7 +87,7 @@ struct HiddenLayers {
     }
 };
 
-// Takes apart the pixels of silhouettes that show the nearer surface, before what is hidden behind them.
+// Separates silhouette pixels that show the nearer surface, before the hidden surfaces behind them.
 void unmix_nearer(Mixtures& mixtures, const LitPicture& picture, const HiddenLayers& hidden,
                   Workers& workers);
 
@@ -99,7 +99,7 @@ struct FillRule {
     int directions = 16;          // that are looked in: 16, 8 or 4,
     int blurred_directions = 16;  // or no more than these where all that is met in them is blurred
     bool textures = true;         // what is in focus goes on as a texture, too
-    // Edges across the picture go on straight on surfaces that are blurred by no more than this.
+    // Edges of the picture continue straight on surfaces that are blurred by no more than this.
     float edges_to_px = std::numeric_limits<float>::infinity();
 };
 

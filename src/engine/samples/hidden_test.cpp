@@ -1,5 +1,5 @@
-// Pixels of silhouettes taken apart, and what hides behind them filled in, on small drawn scenes whose truth
-// is known: a background, a wire before it that covers known shares of pixels, depth of one point per pixel.
+// Separation of silhouette pixels and estimation of hidden surfaces, on small drawn scenes with known truth:
+// a background, a wire in front that covers known shares of pixels, depth of one point per pixel.
 #include "engine/samples/hidden.h"
 
 #include "base/parallel.h"
@@ -35,7 +35,7 @@ struct Drawn {
 
 using Paint = std::function<Rgba(int, int)>;
 
-// A wire from corner to corner, so many pixels wide along a row, before what `behind` says.
+// A wire from corner to corner, width_px wide along a row, in front of the background `behind`.
 Drawn behind_wire(const Paint& behind, const Paint& wire, float width_px, float offset_px = 0.2f,
                   const UnmixRule& unmix = {}, const FillRule& fill = {}, float far_px = kFarPx) {
     Drawn d;
@@ -85,8 +85,8 @@ TEST(Hidden, PartsOfAMixedPixelMakeThePixel) {
     EXPECT_GT(mixed, 100);
 }
 
-// A post hides a bright box but for a sliver of two pixels, beside which a dark wall shows: the clean pixels
-// nearby are the wall's.
+// A post hides a bright box except a sliver of two pixels beside a dark wall: the clean pixels nearby are the
+// wall's.
 TEST(Hidden, ASliverKeepsItsColourBesideAThirdSurface) {
     constexpr float kEdge = 20.4f, kBoxPx = 1, kWallPx = 5;
     Picture colour(kWidth, kHeight);
@@ -245,7 +245,7 @@ TEST(Hidden, ALampThatOnlyPixelsOfAnEdgeShowShinesFromBehindIt) {
 }
 
 TEST(Hidden, NoLightOfALampIsLeftOnAStrandBeforeIt) {
-    // What is less than makes a lamp, too: a strand of one pixel has no clean colour to tell by.
+    // Dimmer than a lamp: a strand of one pixel has no clean colour to compare with.
     constexpr float kStrand = 0.1f;
     Drawn d;
     for (int y = 0; y < kHeight; ++y)

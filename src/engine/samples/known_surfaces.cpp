@@ -66,7 +66,7 @@ Rgba KnownSurfaces::going_on(Place from, Direction outwards, float distance_px) 
     const Rgba own = wide_colour(from, outwards, distance_px);
     if (white_ <= 0) return own;
     const CutEdges::Point hidden = behind(from, outwards, distance_px);
-    // The last pixel of a sign may be dark, between letters, or have lost its light to what hides it.
+    // The last pixel of a sign may be dark, between letters, or have lost its light to the occluder.
     const Place before{from.x + nearest_pixel(outwards.x), from.y + nearest_pixel(outwards.y), from.coc_px};
     float light = std::max(light_of(own), light_of(colour(from.x, from.y)));
     if (shows(before.x, before.y, from.coc_px)) {
@@ -81,9 +81,9 @@ Rgba KnownSurfaces::going_on(Place from, Direction outwards, float distance_px) 
     return dim * (1 - falls) + falls * shown(from, outwards, distance_px, of_light, own);
 }
 
-// What is dark itself, but little darker than what shows with it, is the gap between the letters of a sign:
-// it does not end that, and which of the two came last at the edge does not decide what goes on. What is far
-// darker is the wall beside a lit window.
+// A dark pixel only a little darker than the sign around it is the gap between two letters: it does not end
+// the sign, and which of the two was last at the edge does not change the result. A pixel far darker is the
+// wall beside a lit window.
 Rgba KnownSurfaces::among_lights(Rgba own, Place from, Direction outwards, float distance_px) const {
     const float least = completion_model.gap_lit * white_;
     const float usual = completion_model.gap_contrast * light_of(own);
@@ -93,7 +93,7 @@ Rgba KnownSurfaces::among_lights(Rgba own, Place from, Direction outwards, float
     return own * (1 - lit) + lit * all;
 }
 
-// What blurs it hides detail, too: the mean of at least a part of that blur, here and farther outwards.
+// The blur hides detail as well: the mean over at least a part of that blur, here and farther outwards.
 Rgba KnownSurfaces::wide_colour(Place at, Direction outwards, float distance_px) const {
     const CompletionModel& model = completion_model;
     const CutEdges::Point hidden = behind(at, outwards, distance_px);
@@ -113,9 +113,9 @@ Rgba KnownSurfaces::wide_colour(Place at, Direction outwards, float distance_px)
     return sum * (1 / total);
 }
 
-// The mean of what shows of the surface at r spans, with density 1/(1 + r)^2: of a thing that shows w wide
-// the share w/(w + span). With a span of the distance, that is as if things of all widths were as common and
-// cut anywhere. Nothing counts across an edge that goes on.
+// The mean of the visible surface at r spans, with density 1/(1 + r)^2: a thing visible for a width w gets
+// the share w/(w + span). With a span proportional to the distance, this assumes that things of all widths
+// are equally common and cut anywhere. Pixels beyond a continuing edge do not count.
 Rgba KnownSurfaces::shown(Place from, Direction outwards, float distance_px, const Mean& mean,
                           Rgba otherwise) const {
     constexpr int kParts = 8;  // as likely each

@@ -1,5 +1,4 @@
-// What a picture's pixels say of the surfaces they show, and how far those may be taken to go on where
-// something nearer hides them.
+// The visible surfaces of a picture, and how far each may continue behind an occluder.
 #pragma once
 
 #include "engine/samples/completion_model.h"
@@ -25,15 +24,15 @@ struct Direction {
 
 class KnownSurfaces {
 public:
-    // Borrows the picture and what was found at its silhouettes. white: what counts as bright, scene-linear
-    // luminance (engine/samples/white.h); 0: nothing. edges_to_px: as FillRule's.
+    // Borrows the picture and the mixtures at its silhouettes. white: level of bright light, scene-linear
+    // luminance (engine/samples/white.h); 0: no light is bright. edges_to_px: as in FillRule.
     KnownSurfaces(const LitPicture& picture, View<const float> coc_px, const Mixtures& mixtures, float white,
                   Workers& workers, float edges_to_px = FillRule{}.edges_to_px);
 
-    // Of what each pixel shows; far in front of everything where that is the nearer surface at a silhouette,
-    // of which nothing is known.
+    // Signed radius of each pixel's visible surface; far in front of everything at silhouette pixels of the
+    // nearer surface, which are not usable.
     View<const float> radii() const { return radii_; }
-    // Of the farther surface at a silhouette; without lamps.
+    // Colour of the farther surface at a silhouette, without lamps.
     Rgba colour(int x, int y) const {
         const Mixture* m = mixtures_.at(x, y);
         return m ? m->far_colour : picture_.dim(x, y);
@@ -47,13 +46,13 @@ public:
         int x, y;
         float coc_px;
     };
-    // Its surface as it goes on from there against `outwards`, hidden, over `distance_px`: as wide as one of
-    // sixteen directions is at that distance. Something bright goes on by as much of it as shows: its
-    // light falls to that of the surface beyond it (from here, outwards), the more so the smaller it is
-    // beside the distance. So what an edge cuts fades as it slips behind that edge.
+    // The surface as it continues from there against `outwards`, hidden, over `distance_px`: a mean as wide
+    // as one of sixteen directions at that distance. Bright light falls to the light of the surface beyond it
+    // (from here, outwards), the more so the smaller it is compared with the distance. So a light fades as it
+    // slips behind an edge.
     Rgba going_on(Place from, Direction outwards, float distance_px) const;
-    // What the colour there says of the hidden pixel (x, y), 0…1: little behind an edge that goes on between
-    // them.
+    // Weight of the colour there for the hidden pixel (x, y), 0…1: small behind an edge that continues
+    // between them.
     float passes(Place from, int x, int y) const {
         return edges_.passes({from.x, from.y}, {x, y}, from.coc_px);
     }
@@ -79,7 +78,7 @@ private:
     CutEdges edges_;
 };
 
-// fill_hidden() that continues what is bright by as much of it as shows.
+// fill_hidden() with bright light that fades by its visible width.
 HiddenLayers fill_hidden(const LitPicture& picture, View<const float> coc_px,
                          View<const unsigned char> connected, const Mixtures& mixtures, float nearest_coc_px,
                          float farthest_coc_px, const FillRule& rule, float white, Workers& workers);

@@ -12,7 +12,8 @@ constexpr int kWidth = 160, kHeight = 32, kEdge = 140;
 constexpr float kSign = 2, kWall = 0.1f;
 constexpr Direction kOutwards{-1, 0};
 
-// What goes on from the last column before the edge, so far behind it, where so many columns of sign show.
+// Light that continues from the last column before the edge, distance_px behind it, with columns_of_sign
+// visible columns of sign.
 float light_behind(int columns_of_sign, float distance_px, float white = 1, int dark_columns = 0,
                    float wall = kWall) {
     Picture colour(kWidth, kHeight, {wall, wall, wall, 1});
@@ -28,7 +29,7 @@ float light_behind(int columns_of_sign, float distance_px, float white = 1, int 
 
 const float kWhole = luminance({kSign, 0.5f * kSign, kSign, 1});
 
-// What goes on from the last column of a wall that is striped along the edge, where its blur is so wide.
+// Colour that continues from the last column of a wall striped along the edge, at the blur coc_px.
 float stripes_behind(float coc_px) {
     Picture colour(kWidth, kHeight, {kWall, kWall, kWall, 1});
     for (int y = 0; y < kHeight; ++y)

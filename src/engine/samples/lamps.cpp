@@ -14,7 +14,7 @@ struct Pixel {
     int x, y;
 };
 
-// What lamps light of the farthest surface in a pixel, and what is nearer there.
+// Light of lamps on the farthest surface in a pixel, and the surface in front of it.
 class LampLight {
 public:
     LampLight(const LitPicture& picture, View<const float> coc, const Mixtures& mixtures)
@@ -29,8 +29,8 @@ public:
         const Mixture* m = mixtures_.at(x, y);
         return !m ? coc_(x, y) : m->far_light != Rgba{} ? m->lamp_coc_px : m->far_coc_px;
     }
-    // Whether a lamp of this radius would be hidden there, 0…1: what does not hide it wholly would let it be
-    // seen.
+    // Degree to which a lamp of this radius is hidden there, 0…1: an occluder that does not hide it
+    // completely leaves it visible.
     float hides(int x, int y, float lamp_px) const {
         if (!contains(x, y)) return 0;
         const Mixture* m = mixtures_.at(x, y);
@@ -41,7 +41,7 @@ public:
                    ? 0
                    : std::max(0.0f, (m->near_share - nothing) / (1 - nothing));
     }
-    // Between the middles of four pixels.
+    // Light between the middles of four pixels.
     Rgba at(float x, float y) const {
         const int u = int(std::floor(x)), v = int(std::floor(y));
         const float s = x - float(u), t = y - float(v);
@@ -55,7 +55,7 @@ private:
     const Mixtures& mixtures_;
 };
 
-// What shows of a lamp.
+// The visible part of a lamp.
 struct Lamp {
     std::vector<Pixel> pixels;
     Rect bounds;
@@ -97,7 +97,7 @@ private:
         lamp.lit += double(light), lamp.lit_x += double(light) * p.x, lamp.lit_y += double(light) * p.y;
         if (light > lamp.peak) lamp.peak = light, lamp.coc_px = light_.coc_px(p.x, p.y);
     }
-    // From a neighbour of this radius.
+    // Visits a pixel from a neighbour of this radius.
     void visit(Pixel p, float coc, Lamp& lamp, std::vector<Pixel>& open) {
         if (!light_.contains(p.x, p.y)) return;
         if (const float hides = light_.hides(p.x, p.y, coc); hides > 0) {
@@ -115,7 +115,7 @@ private:
     Image<unsigned char> seen_;
 };
 
-// From where to where the lamp reaches along a direction; a pixel that is lit less reaches less far.
+// Extent of the lamp along a direction; a pixel that is lit less reaches less far.
 std::pair<float, float> extent(const Lamp& lamp, const LampLight& light, float dx, float dy) {
     float low = 1e30f, high = -1e30f;
     for (const Pixel p : lamp.pixels) {
@@ -130,7 +130,7 @@ std::pair<float, float> extent(const Lamp& lamp, const LampLight& light, float d
 template <typename Visit>
 void complete(const Lamp& lamp, const LampLight& light, const Visit& visit) {
     if (lamp.pixels.empty() || lamp.cuts <= 0 || lamp.lit <= 0) return;
-    // Across the edge, from what shows to what hides it.
+    // Direction across the edge, from the visible part to the occluder.
     float nx = float(lamp.cut_x / lamp.cuts - lamp.lit_x / lamp.lit),
           ny = float(lamp.cut_y / lamp.cuts - lamp.lit_y / lamp.lit);
     const float length = std::hypot(nx, ny);

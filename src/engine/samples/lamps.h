@@ -1,4 +1,4 @@
-// Lamps that an edge cuts: what shows of one goes on behind the edge by the lamp's own shape.
+// Lamps that an edge cuts: the visible part continues behind the edge by the lamp's own shape.
 #pragma once
 
 #include "petzval/image.h"
@@ -11,8 +11,8 @@
 
 namespace petzval::engine {
 
-// The light of lamps behind a silhouette as where nothing hides them; of what is hidden by more than half,
-// nobody knows.
+// The light of lamps behind a silhouette without the occluder; 0 for pixels hidden by more than half, where
+// it is unknown.
 Rgba unhidden_light(const Mixture& mixture);
 
 // Light of a lamp that a nearer surface hides.
@@ -22,7 +22,7 @@ struct HiddenLamp {
     Rgba light;  // a is 0
 };
 
-// By rows of the picture, ascending x, at most one of a pixel.
+// Hidden parts of lamps, by rows of the picture, ascending x, at most one per pixel.
 struct HiddenLamps {
     std::vector<std::vector<HiddenLamp>> rows;
     std::span<const HiddenLamp> row(int y) const {
@@ -33,9 +33,9 @@ struct HiddenLamps {
 // Most of lamp_widest_px: no lamp is looked at farther from where an edge cuts it.
 constexpr int kWidestLampPx = 32;
 
-// A lamp is taken to be as deep, across the edge that cuts it, as it is wide along that, and point-symmetric:
-// its other end is the mirror image of what shows of it. So it never holds more than twice the light that
-// shows, and fades as it slips behind the edge. `mixtures` as unmix_nearer() leaves them.
+// A lamp is assumed to be as deep, across the edge that cuts it, as it is wide along the edge, and
+// point-symmetric: its hidden end is the mirror image of the visible one. So it never holds more than twice
+// the visible light, and fades as it slips behind the edge. `mixtures` as unmix_nearer() leaves them.
 HiddenLamps lamps_behind(const LitPicture& picture, View<const float> coc_px, const Mixtures& mixtures,
                          Workers& workers);
 

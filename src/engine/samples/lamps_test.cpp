@@ -14,7 +14,7 @@ namespace {
 constexpr int kWidth = 64, kHeight = 48;
 constexpr float kNearPx = -6, kFarPx = 8, kGlow = 50;
 
-// How much of pixel (x, y) a disc covers.
+// The share of pixel (x, y) that a disc covers.
 float covered(int x, int y, float centre_x, float centre_y, float radius) {
     const float away = std::hypot(float(x) - centre_x, float(y) - centre_y);
     return std::clamp(radius + 0.5f - away, 0.0f, 1.0f);
@@ -25,7 +25,7 @@ struct CutLamp {
     int farthest_x = 0;            // column that hidden light reaches
 };
 
-// A lamp of 5 px in radius around (centre_x, 24), behind what begins at column `edge`.
+// A lamp of 5 px in radius around (centre_x, 24), behind an occluder that begins at column `edge`.
 CutLamp cut_lamp(float centre_x, int edge) {
     Picture colour(kWidth, kHeight, {0.02f, 0.02f, 0.02f, 1});
     Plane coc(kWidth, kHeight, kFarPx);

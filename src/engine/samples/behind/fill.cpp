@@ -45,7 +45,7 @@ struct Path {
     std::vector<std::size_t> at_distance;  // the first step at least so many pixels away
 };
 
-// Weighted opinions on what is hidden.
+// Weighted votes on the colour of a hidden surface.
 class Votes {
 public:
     void add(Rgba colour, float coc_px, float weight) {
@@ -95,7 +95,7 @@ public:
         lay_paths();
     }
 
-    // Whether any lens ray can come past what hides what is behind (x, y).
+    // True if a lens ray can pass the occluder and reach the surface behind (x, y).
     bool may_hide(int x, int y) const {
         return beyond_(x / kBlock, y / kBlock) <= std::abs(coc_(x, y)) + completion_model.past_edge_px;
     }
@@ -121,10 +121,10 @@ public:
     }
 
 private:
-    // Per block of pixels: distance to each silhouette of a surface in the block, less the blur of what lies
-    // behind it, the smallest. A two-sweep chamfer transform (G. Borgefors, "Distance transformations in
-    // digital images", 1986) that does not enter surfaces as far as what it carries. Pixels beyond their own
-    // blur need no search.
+    // Per block of pixels: the smallest distance to a silhouette of a surface in the block, less the blur of
+    // the surface behind it. A two-sweep chamfer transform (G. Borgefors, "Distance transformations in
+    // digital images", 1986) that does not enter surfaces as far as the surface that it carries. Pixels
+    // beyond their own blur need no search.
     void measure_distances(Workers& workers) {
         const int width = (coc_.width() + kBlock - 1) / kBlock,
                   height = (coc_.height() + kBlock - 1) / kBlock;
@@ -162,7 +162,7 @@ private:
                 relax(x, y, 1, 0), relax(x, y, 1, 1), relax(x, y, 0, 1), relax(x, y, -1, 1);
     }
 
-    // Where the steps of each direction land: every pixel at first, every eighth of the way further out.
+    // Pixels visited in each direction: every pixel at first, every eighth of the way further out.
     void lay_paths() {
         const float longest = largest_ + std::abs(farthest_) + completion_model.past_edge_px;
         for (int k = 0; k < kDirections; ++k) {
@@ -262,15 +262,15 @@ private:
         return t * t * (3 - 2 * t);
     }
 
-    // How much of what was met is of one surface, by 1/distance.
+    // Weight of one surface among those met, by 1/distance.
     struct Met {
         float all = 0, within = 0;  // its own outline
         float unhidden = 0;         // by outlines of nearer ones
     };
 
-    // The surfaces that were met, nearest first. The farthest fills all there is; a nearer one only the share
-    // of the surroundings that it has: a wire behind a leaf goes on as a wire. Where its outline goes on
-    // hidden it has all on its side of that.
+    // The surfaces met, nearest first. The farthest fills the rest; a nearer one takes the share that it has
+    // of the surroundings, so a wire behind a leaf continues as a wire. Where its outline continues hidden,
+    // it takes all on its side.
     void stack(int x, int y, Hits& hits, std::vector<Hidden>& hidden) const {
         float all_behind = 0, unhidden_behind = 0;
         std::array<Hidden, kSurfaces> surfaces{};
@@ -331,7 +331,8 @@ private:
         constexpr std::size_t kPairs = kDirections / 2;
         for (std::size_t k = 0; k < kPairs; ++k) {
             const Found *a = take(k), *b = take(k + kPairs);
-            // Seen on both sides, it most likely goes on between them, unless an edge cuts one side off.
+            // A surface seen on both sides most likely continues between them, unless an edge cuts one side
+            // off.
             const float weight = a && b ? completion_model.share_pair : completion_model.share_alone;
             if (a) meet(*a, weight);
             if (b) meet(*b, weight);
@@ -344,7 +345,7 @@ private:
             for (Found& f : direction) f.found = f.found && f.coc_px < nearest_px;
         return votes.result();
     }
-    // What was met in direction k and against it.
+    // Adds the surfaces met in direction k and the opposite one.
     void add_pair(HiddenTextures::Point& hidden, const Found& a, const Found& b, std::size_t k, float weight,
                   Votes& votes) const {
         const float total = a.distance_px + b.distance_px;
@@ -357,7 +358,7 @@ private:
         votes.add(wa * colour(a) + wb * colour(b), wa * a.coc_px + wb * b.coc_px,
                   weight * (closeness * std::sqrt(closeness) * alike));
     }
-    // What was met in direction k.
+    // Adds a surface met in direction k alone.
     void add_alone(HiddenTextures::Point& hidden, const Found& one, std::size_t k, float nearest_px,
                    float weight, Votes& votes) const {
         const float away = one.distance_px * one.distance_px;
@@ -380,14 +381,14 @@ private:
     Image<Block> blocks_;
     std::array<Path, kDirections> paths_;
     float farthest_, largest_;  // of the frame: radius farthest behind, largest |radius|
-    // Of the directions each such is looked in; of those where nothing sharp is met.
+    // Every how many directions are searched; the second number applies where no sharp surface is met.
     std::size_t every_, every_blurred_;
 };
 
 constexpr int kLargestSquare = HiddenLayers::kBand;
 
-// What is hidden is seen through its own blur: pixels of one surface share what was found for the first of
-// them in a square of so many on a side.
+// Hidden surfaces are seen through their own blur, so pixels of one surface share the answer of the first
+// pixel in a square. Returns the side of that square, pixels.
 int shared_square(std::span<const Hidden> hidden, float shared_from_px) {
     float least_blur_px = 1e30f;
     for (const Hidden& h : hidden) least_blur_px = std::min(least_blur_px, std::abs(h.coc_px));
@@ -403,7 +404,7 @@ Range range(std::size_t begin, std::size_t end) {
     return r;
 }
 
-// What was found in a square of kLargestSquare pixels so far.
+// Answers found in a square of kLargestSquare pixels so far.
 class Answers {
 public:
     void clear() { answers_.clear(); }

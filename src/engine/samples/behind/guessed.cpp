@@ -20,15 +20,15 @@ bool one_surface(float coc_a, float coc_b) {
     return std::abs(coc_a - coc_b) < 1.5f + 0.1f * std::max(std::abs(coc_a), std::abs(coc_b));
 }
 
-// What lamps count in a mean of what is dim: little where they are brighter than kLampContrast times the
-// usual light, the square of the mean root, and next to nothing where nothing bright may be made up.
+// Weight of lamps in a mean of dim light: small if they are brighter than kLampContrast times the usual light
+// (the square of the mean root), nearly 0 where bright light must not be invented.
 class WithoutLamps {
 public:
     explicit WithoutLamps(Fill fill) : dim_(fill == Fill::Dim) {}
     void see(Rgba colour, float weight) {
         roots_ += weight * std::sqrt(std::max(0.0f, luminance(colour))), weight_ += weight;
     }
-    // Of one that was seen.
+    // Weight of a visible colour.
     float share(Rgba colour) const {
         constexpr float kLampContrast = 4;
         const float usual = kLampContrast * (roots_ / weight_) * (roots_ / weight_) + 1e-6f;
@@ -74,13 +74,13 @@ Block block_of(const EngineView& input, const Rect& area) {
     return block;
 }
 
-// A piece of a surface: its colour, and that which is judged.
+// A piece of a surface: its colour, and the colour by which it is judged.
 struct Seen {
     Rgba colour, judged;
     float coc_px = 0;
 };
 
-// What was met: the surface that most of it belongs to wins, its pieces are averaged.
+// Surfaces met: the one with the largest weight wins, and its pieces are averaged.
 class Votes {
 public:
     explicit Votes(Fill fill) : fill_(fill) {}
@@ -90,7 +90,7 @@ public:
         all_ += weight;
     }
     bool empty() const { return count_ == 0; }
-    // Of some.
+    // Mean of the winning pieces; requires at least one.
     Seen result() const {
         float best = 0;
         Seen out;
@@ -183,7 +183,7 @@ public:
                 votes.add(fill.seen, weight / (kCountsPx * kCountsPx));
             }
     }
-    // Whether anything farther lies within two blocks of a pixel with a fill.
+    // True if a farther surface lies within two blocks of a pixel that has a fill.
     bool is_by_edge(int x, int y) const { return fills_(x / block_, y / block_).by_edge; }
 
 private:
@@ -245,8 +245,8 @@ public:
     }
 
 private:
-    // What is met first that is farther, past its rim. What is so little farther that blur hardly parts the
-    // two goes on as what hides it.
+    // Adds the first farther surface met in this direction, past its rim. A surface so little farther that
+    // blur hardly separates the two counts as the occluder's continuation.
     void look(int x, int y, int direction, Votes& votes) const {
         constexpr int kReach = 8;
         constexpr float kFarther = 0.5f;                                        // of the own radius

@@ -1,5 +1,5 @@
-// What one picture does not say, guessed as far as the soft edges of a preview show it.
-// (engine/samples/hidden.h does it for final frames.)
+// Estimates hidden surfaces as far as the soft edges of a preview show them. (engine/samples/hidden.h does it
+// for final frames.)
 #pragma once
 
 #include "engine/samples/silhouettes/rims.h"
@@ -15,10 +15,10 @@ struct FilledIn {
 };
 using HiddenFill = SparseRows<FilledIn>;
 
-// Looks from every block of pixels that holds something in front of focus, in 16 directions as far as its
-// blur reaches, for farther surfaces around; the one met most, by 1/distance^2, goes on behind, blended from
-// block to block. Beside edges each pixel looks for itself, in 8 directions: so the texture of what is in
-// focus goes on behind a wire.
+// Searches from every block that holds a surface in front of focus, in 16 directions as far as its blur
+// reaches, for farther surfaces. The surface met most, by 1/distance^2, continues behind, blended from block
+// to block. Beside edges each pixel searches for itself, in 8 directions, so the texture of a surface in
+// focus continues behind a wire.
 HiddenFill fill_hidden(const EngineView& input, View<const Touched> touched);
 
 struct Guessed {

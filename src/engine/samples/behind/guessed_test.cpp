@@ -56,8 +56,7 @@ TEST(HiddenFill, DoesNotFanOutLamps) {
         }
 }
 
-// A window whose light is drawn by itself is dimmed, but as bright as it was where it goes on behind the
-// wire.
+// A window whose light is drawn as a highlight is dimmed, but continues behind the wire at full brightness.
 TEST(HiddenFill, IsAsBrightAsWhatShowsAlsoWhereLightIsDrawnByItself) {
     Wire wire([](int, int) { return 4.0f; });
     Picture lit(64, 64);

@@ -26,13 +26,13 @@ Axis axis_of(std::span<const PlanePoint> points) {
     return a;
 }
 
-// What is 0 on a circle or a line: level + to_u u + to_v v - bend (u^2 + v^2) / 2, in places u along an axis
-// and v to its right; of gradient 1 there.
+// Equation of a circle or a line: level + to_u u + to_v v - bend (u^2 + v^2) / 2 = 0, for points u along an
+// axis and v to its right; of gradient 1 on it.
 struct Equation {
     double level = 0, to_u = 0, to_v = 1, bend = 0;
 };
 
-// Of to_v = 1.
+// The least-squares fit with to_v = 1.
 Equation least_squares(std::span<const PlanePoint> points, const Axis& axis) {
     double n = 0, u1 = 0, q1 = 0, uu = 0, uq = 0, qq = 0, v1 = 0, uv = 0, qv = 0;
     for (const PlanePoint& p : points) {
@@ -109,7 +109,7 @@ float Arc::along(PlanePoint p) const {
 
 float Arc::crossed(PlanePoint right, PlanePoint left) const {
     const float dx = right.x - left.x, dy = right.y - left.y;
-    // From left to right it is l + g t + q t^2, which rises where it is 0.
+    // The equation from left to right is l + g t + q t^2, which rises at its zero.
     const float l = right_of(left), q = -0.5f * curvature * (dx * dx + dy * dy), g = right_of(right) - l - q;
     const float rise = std::sqrt(std::max(0.0f, g * g - 4 * q * l));
     const float t = g > 0 ? -2 * l / (g + rise) : (rise - g) / (2 * q);

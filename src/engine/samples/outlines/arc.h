@@ -14,7 +14,7 @@ struct Arc {
     float into_x, into_y;  // from there; of length 1
     float curvature;       // 1/px; > 0: it turns to its right
 
-    // Where it is after so many pixels, and where it goes from there.
+    // The point and direction of the arc after along_px pixels.
     PlanePoint at(float along_px) const;
     Arc from(float along_px) const;
     // > 0 to its right, and next to it how far, px.
@@ -22,11 +22,11 @@ struct Arc {
         const float x = p.x - start.x, y = p.y - start.y;
         return y * into_x - x * into_y - 0.5f * curvature * (x * x + y * y);
     }
-    // How far a point lies to its right, px.
+    // Distance of a point to the right of the arc, px.
     float aside(PlanePoint p) const;
-    // How far along it is nearest to a point that is close to it, px; < 0 before it starts.
+    // Distance along the arc to the place nearest to a close point, px; < 0 before its start.
     float along(PlanePoint p) const;
-    // Where it is crossed between two points on different sides of it: so far along it, px.
+    // Distance along the arc to the crossing between two points on different sides of it, px.
     float crossed(PlanePoint right, PlanePoint left) const;
 };
 

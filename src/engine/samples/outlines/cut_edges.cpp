@@ -73,7 +73,7 @@ private:
             }
         return c;
     }
-    // Whether something nearer hides what comes two pixels on.
+    // True if a nearer surface hides the pixel two pixels further.
     bool hidden(int x, int y, float into_x, float into_y, float coc_px) const {
         const int u = x + nearest_pixel(2 * into_x), v = y + nearest_pixel(2 * into_y);
         return radii_.rect().contains(u, v) && radii_(u, v) <= coc_px - completion_model.step_px;
@@ -101,7 +101,7 @@ private:
     float dark_;
 };
 
-// Of the same edge, met at several pixels of a silhouette, the strongest.
+// Keeps the strongest of several findings of one edge at a silhouette.
 void keep_strongest(std::vector<CutEdges::Edge>& edges) {
     constexpr int kApartPx = 4;
     const auto key = [](const CutEdges::Edge& e) {

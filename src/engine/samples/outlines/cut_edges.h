@@ -1,4 +1,4 @@
-// Edges of what a picture shows that something nearer cuts: behind it they go on, straight.
+// Edges of the picture that an occluder cuts: they continue behind it, straight.
 #pragma once
 
 #include "engine/samples/hidden.h"
@@ -9,8 +9,8 @@ namespace petzval::engine {
 
 class CutEdges {
 public:
-    // radii_px: of what each pixel shows, as KnownSurfaces has them. white: what counts as bright,
-    // scene-linear luminance; 0: no edge is looked for. to_px: nor is one of a surface that is blurred by
+    // radii_px: radius of each pixel's visible surface, as in KnownSurfaces. white: level of bright light,
+    // scene-linear luminance; 0: edges are not searched. to_px: edges are not searched on surfaces blurred by
     // more.
     CutEdges(const LitPicture& picture, View<const float> radii_px, const Mixtures& mixtures, float white,
              float to_px, Workers& workers);
@@ -18,8 +18,8 @@ public:
     struct Point {
         int x, y;
     };
-    // What a colour that shows at `shown`, of a surface at coc_px, says of a point where that is hidden: 1 if
-    // nothing stands between them, kCut behind an edge that goes on there.
+    // Weight of a colour visible at `shown`, of a surface at coc_px, for a hidden point: 1 if nothing stands
+    // between them, kCut behind a continuing edge.
     float passes(Point shown, Point hidden, float coc_px) const;
     static constexpr float kCut = 1e-3f;  // not 0: where all is behind some edge all counts alike
 

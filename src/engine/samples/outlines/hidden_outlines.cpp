@@ -26,7 +26,7 @@ int cell_of(int at, int px, int cells) { return std::clamp(at / px, 0, cells - 1
 
 constexpr float kForever = 1e9f;
 
-// An arc that goes on straight after a while.
+// An arc that continues straight after a while.
 struct Course {
     Arc arc;
     float bent_px = kForever;
@@ -42,14 +42,15 @@ struct Course {
     }
 };
 
-// Finds which ends are those of one outline, and how the others go on.
+// Joins ends that belong to one outline, and continues the others.
 class EndJoiner {
 public:
     EndJoiner(View<const float> coc, std::vector<OutlineEnd> ends) : coc_(coc), ends_(std::move(ends)) {
         columns_ = coc.width() / kEndCell + 1, rows_ = coc.height() / kEndCell + 1;
         near_.resize(std::size_t(columns_) * std::size_t(rows_));
         for (std::size_t i = 0; i < ends_.size(); ++i) near_[cell(ends_[i].at)].push_back(facing(int(i)));
-        // Among so many, as depth of noise has them, ends meet by chance, and all would be asked of all.
+        // Largest number of ends in a cell. More, as noise in depth makes them, meet by chance, and testing
+        // all pairs would take too long.
         constexpr std::size_t kMostInCell = 64;
         for (auto& in_cell : near_)
             if (in_cell.size() > kMostInCell) in_cell.clear();
@@ -83,7 +84,7 @@ private:
         }
     };
 
-    // Of an end, what tells soonest that two are not of one outline.
+    // Facts of an end that show soonest that two ends do not belong to one outline.
     struct Facing {
         int number;
         PixelAt at;
@@ -107,7 +108,7 @@ private:
         const OutlineEnd& end = ends_[std::size_t(i)];
         return {i, end.at, into_of(end), end.coc_px, end.same_is_left, end.told_by > 0};
     }
-    // Where ends that one meets are: within 60 degrees of where it points.
+    // Area of the ends that this one can meet: within 60 degrees of its direction.
     static Rect reached(const Facing& end) {
         constexpr float kWidest = 0.87f * float(kFarthestPx);
         const auto least = [](float into) { return int(std::min(0.0f, float(kFarthestPx) * into)); };
@@ -130,7 +131,7 @@ private:
                             best = *joint;
         return best;
     }
-    // That arc which what shows before both ends lies on.
+    // The arc through the visible points before both ends.
     std::optional<Joint> joint_of(int i, int other) const {
         const CompletionModel& model = completion_model;
         const OutlineEnd &a = ends_[std::size_t(i)], &b = ends_[std::size_t(other)];
@@ -152,7 +153,7 @@ private:
         if (hidden_for(a, {arc}, sure) < length - kLeastTracedPx) return {};
         return Joint{other, arc, length, sure};
     }
-    // What was traced next to the gap, about as much on either side of it as it is long.
+    // Traced points next to the gap, about as many on either side as the gap is long.
     static std::span<const PlanePoint> of_both(const OutlineEnd& a, const OutlineEnd& b, PlanePoint to_b,
                                                std::span<PlanePoint> points) {
         const int most = std::max(int(completion_model.outline_evidence_px), int(std::hypot(to_b.x, to_b.y)));
@@ -173,8 +174,8 @@ private:
         return {-p.x / length, -p.y / length};
     }
 
-    // How far something nearer goes on before it; where it shows again as expected, and is hidden again, from
-    // there on. sure: that it goes this way.
+    // Length for which a nearer surface hides it; if it is visible again as expected, and hidden again, from
+    // there on. sure: its course is certain.
     float hidden_for(const OutlineEnd& end, const Course& course, bool sure = false) const {
         const int most_px =
             int(sure ? completion_model.outline_farthest_px : completion_model.outline_longest_px);
@@ -214,7 +215,7 @@ private:
         add(end, end.arc, std::min(length, course.bent_px), outlines);
         if (length > course.bent_px) add(end, course.rest(), length - course.bent_px, outlines);
     }
-    // What it is asked about.
+    // Adds the points at which it will be queried.
     static void add(const OutlineEnd& end, const Arc& arc, float length, std::vector<Outline>& outlines) {
         constexpr int kLeastPx = 16, kAroundPx = 8;
         const float half = 0.5f * length;

@@ -1,4 +1,4 @@
-// Outlines of surfaces that something nearer hides: where one is hidden, it goes on as it came.
+// Outlines that an occluder hides: each continues along its visible course.
 #pragma once
 
 #include "petzval/image.h"
@@ -10,23 +10,23 @@
 
 namespace petzval::engine {
 
-// What it tells of a place depends on nothing farther away.
+// Its answer at a place depends on nothing farther away than this, px.
 constexpr int kOutlineReachPx = 160;
 
-// Found from radii alone: where three surfaces meet in a picture, the nearest hides how the outline of the
-// middle one, before the farthest, goes on. Two ends of it that lie on one line or arc are one outline, all
-// of which is hidden between them ("relatable": P. Kellman, T. Shipley, "A theory of visual interpolation in
-// object perception", 1991). Another end goes on as it came, bent no longer than it is seen to be, up to
-// where what hides it ends.
+// Outlines are found from radii alone. Where three surfaces meet in a picture, the nearest hides the
+// continuation of the outline between the middle and the farthest one. Two ends on one line or arc are one
+// outline, hidden between them ("relatable": P. Kellman, T. Shipley, "A theory of visual interpolation in
+// object perception", 1991). A single end continues its course, bent no longer than its visible part, until
+// the occluder ends.
 class HiddenOutlines {
 public:
     HiddenOutlines() = default;
     // coc_px: of each pixel, as the picture states it.
     HiddenOutlines(View<const float> coc_px, Workers& workers);
 
-    // Of a surface at coc_px that shows at `shown`: whether it goes on to a hidden point, 1, or 0 beyond its
-    // own outline; and whether it can be what is to be seen there, 0 where the outline of a nearer surface
-    // begins between them.
+    // For a surface at coc_px visible at `shown`: whether it continues to a hidden point, 1, or 0 beyond its
+    // own outline; and whether it can be visible there, 0 if the outline of a nearer surface begins between
+    // them.
     struct Open {
         float within = 1, unhidden = 1;
     };

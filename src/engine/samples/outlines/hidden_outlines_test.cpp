@@ -31,8 +31,8 @@ struct Scene {
                 coc(x, y) = hides(u, v) ? kNearPx : thing(u, v) ? 0 : kBackPx;
             }
     }
-    // The mean of how far the share of the thing is from the truth, of the pixels that are hidden within
-    // within_px of its outline, but not of those which it cuts.
+    // Mean error of the thing's share in hidden pixels within within_px of its outline, except the pixels
+    // that the outline cuts.
     double error(float within_px) const {
         const LitPicture picture{colour, {}};
         const Image<unsigned char> connected = connections(coc, one_thread());
@@ -99,7 +99,7 @@ TEST(HiddenOutlines, ABallThatGoesBehindSomethingWideIsRoundAtFirst) {
     EXPECT_LT(Scene(ball(40, 48, 28), rectangle(50, -1, 64, 70)).error(6), 0.02);
 }
 
-// Where the thing, which shows at (20, 50), goes on to by its outlines.
+// The share to which the thing, visible at (20, 50), continues by its outlines.
 float within(const Scene& scene, int x, int y) {
     return HiddenOutlines(scene.coc, one_thread()).open({20, 50}, {x, y}, 0).within;
 }
@@ -128,7 +128,7 @@ TEST(HiddenOutlines, AnEdgeContinuesAloneForAHundredPixels) {
     }
 }
 
-// Where nothing lies behind the thing, or nothing before it, no outline is hidden.
+// If nothing lies behind the thing, or nothing in front of it, no outline is hidden.
 TEST(HiddenOutlines, OnlyThreeSurfacesHideAnOutline) {
     const Inside none = [](float, float) { return false; };
     const HiddenOutlines two(Scene(rectangle(-1, 40, 50, 100), none).coc, one_thread());

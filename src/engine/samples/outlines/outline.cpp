@@ -17,7 +17,7 @@ Outline::Outline(View<const float> coc, int x, int y, float threshold_px) {
 }
 
 float Outline::near_share(bool along) const {
-    // What the tent takes for the other surface than the pixel's own takes up so much of it.
+    // The part of the tent that belongs to the other surface, of which the pixel's own area takes a share.
     const float tent = along ? tent_along() : this->tent(0, 0);
     return side(0, 0) > 0 ? 1 - completion_model.other_side * (1 - tent) : completion_model.other_side * tent;
 }

@@ -21,7 +21,7 @@ Beside beside(PixelAt at, PixelAt step) {
     return {{at.x, at.y - 1}, {at.x - 1, at.y - 1}};
 }
 
-// Along an outline from where it is hidden on.
+// Follows an outline from the point where it is hidden.
 class Tracer {
 public:
     Tracer(View<const float> coc, OutlineEnd& end) : coc_(coc), end_(end) {}
@@ -32,7 +32,7 @@ public:
             const DepthSide r = side(right), l = side(left);
             if ((r == DepthSide::Same && l == DepthSide::Farther) ||
                 (l == DepthSide::Same && r == DepthSide::Farther)) {
-                // Traced the other way from how it goes on.
+                // The trace runs opposite to the outline's continuation.
                 end_.same_is_left = r == DepthSide::Same;
                 return follow(k);
             }
@@ -65,7 +65,7 @@ private:
     OutlineEnd& end_;
 };
 
-// As much of what was traced as lies on one line or arc tells how it goes on.
+// The longest traced part on one line or arc decides the continuation.
 void find_arc(OutlineEnd& end) {
     constexpr int kLeastOfArc = 14, kShort = 10;
     for (const int n : {end.traced_px, 24, 18, kLeastOfArc, 12, 8, kLeastTracedPx}) {

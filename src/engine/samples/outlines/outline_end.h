@@ -15,7 +15,7 @@ struct PixelAt {
     int x, y;
 };
 
-// How what a pixel shows lies to a surface.
+// Relation of a pixel's visible surface to another surface.
 enum class DepthSide { Nearer, Same, Farther };
 DepthSide depth_side(float coc_px, float surface_px);
 // Nothing is known beyond the picture: it counts as nearer.
@@ -39,8 +39,8 @@ struct OutlineEnd {
 // three surfaces meet, of the middle one before the farthest.
 std::optional<OutlineEnd> outline_end(View<const float> coc_px, int x, int y);
 
-// What points lie on as well as sides of pixels can tell: a line, if that explains them; else an arc. False:
-// neither.
+// Fits a line to the points, or an arc if the line does not explain them within the precision of pixel sides.
+// False: neither fits.
 bool line_or_arc(const FittedArc& line, const FittedArc& arc, Arc& best);
 
 }  // namespace petzval::engine

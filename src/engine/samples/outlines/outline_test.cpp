@@ -22,7 +22,7 @@ float covered(const Inside& inside, int x, int y) {
     return float(n) / (kFine * kFine);
 }
 
-// Of pixels beside ones of the other side.
+// Agreement at pixels beside pixels of the other side.
 struct Agreement {
     double correlation = 0, rms = 0;
 };

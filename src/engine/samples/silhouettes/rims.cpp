@@ -17,15 +17,15 @@ static_assert(kRimReachPx == kCleanReach + 1);
 
 float light_product(Rgba a, Rgba b) { return a.r * b.r + a.g * b.g + a.b * b.b; }
 
-// What touches a rim of the nearer surface.
+// Nearer pixels that touch a rim.
 struct Nearer {
     Rgba colour;                      // the mean
     float share = 0;                  // of the pixel, by the shape: a tent over 3 x 3 pixels
     float brightest = 0, coc_px = 0;  // of the brightest pixel
 };
 
-// How a rim is taken apart: its share, and how far its far colour goes from the pixel's own towards that of
-// clean pixels.
+// Separation of a rim: its share, and how far its far colour moves from the pixel's own towards that of clean
+// pixels.
 struct Decision {
     float share, towards_clean;
 };
@@ -88,8 +88,8 @@ private:
         return {(own - light) / (nearer.brightest - light), 1};
     }
 
-    // Where between the two colours the pixel's own lies says less than the shape, the more the far ones
-    // vary and the farther it lies beside them.
+    // The pixel's place between the two colours counts less than the shape, the more the far colours vary and
+    // the farther the pixel's colour lies beside them.
     Decision of_any(int x, int y, const Nearer& nearer, const Guess& far) const {
         constexpr float kShapeCounts = 16;
         const Rgba own = comparable(judged_(x, y));
@@ -132,7 +132,7 @@ Image<Touched> find_touched(View<const float> coc_px, Workers& workers) {
     parallel_for(height, workers, [&](int y) {
         const float* const rows[3] = {coc_px.row(std::max(0, y - 1)), coc_px.row(y),
                                       coc_px.row(std::min(height - 1, y + 1))};
-        // Of the three pixels of each column, and one more at either end.
+        // Extremes of the three pixels of each column, and of one more column at either end.
         std::vector<float> least(std::size_t(width) + 2), most(least.size());
         for (int x = 0; x < width; ++x) {
             least[std::size_t(x) + 1] = std::min(std::min(rows[0][x], rows[1][x]), rows[2][x]);

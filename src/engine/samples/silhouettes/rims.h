@@ -1,7 +1,7 @@
-// Rims: pixels that show a farther surface in part light of a nearer one. A renderer filters colour over
-// edges, but the depth of a pixel is that of one point: beside a lamp in focus a ring of its light has the
-// depth of what is behind, and would be spread by that into a disc; beside a blurred wire a line of its
-// colour would stay sharp. hidden.h takes all silhouettes apart, for final frames; this is for previews.
+// Rims: pixels of a farther surface that hold light of a nearer one. A renderer filters colour over edges,
+// but the depth of a pixel is that of one point. Beside a lamp in focus, a ring of its light has the
+// background's depth and would spread into a disc; beside a blurred wire, a line of its colour would stay
+// sharp. hidden.h separates all silhouettes, for final frames; this is for previews.
 #pragma once
 
 #include "petzval/image.h"
@@ -16,7 +16,7 @@ namespace petzval::engine {
 // Surfaces whose radii differ by less are blurred alike.
 constexpr float kUnlikePx = 1.5f;
 
-// What the pixels around one say of it: whether surfaces that are blurred unlike it touch it.
+// Relation of a pixel to its neighbours: whether surfaces with another blur touch it.
 enum class Touched : unsigned char {
     Clean,      // none
     ByFarther,  // by farther ones alone
@@ -30,7 +30,7 @@ struct Rim {
     float share = 0;  // of the pixel that the nearer surface covers
     float near_coc_px = 0;
     Rgba far;
-    // Of the pixel's own colour: premultiplied by the share.
+    // The nearer surface's part of the pixel's colour, premultiplied by the share.
     Rgba near(Rgba colour) const { return colour - (1 - share) * far; }
 };
 using Rims = SparseRows<Rim>;
@@ -41,7 +41,7 @@ using Rims = SparseRows<Rim>;
 // ones than the pixel's own.
 Rims find_rims(View<const Rgba> colour, View<const Rgba> judged, View<const float> coc_px,
                View<const Touched> touched, Workers& workers);
-// How far what decides about a pixel may lie from it.
+// Largest distance of pixels that decide about a pixel.
 constexpr int kRimReachPx = 4;
 
 }  // namespace petzval::engine

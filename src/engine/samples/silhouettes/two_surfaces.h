@@ -50,18 +50,18 @@ inline Rgba light_only(Rgba c) {
     return {std::max(0.0f, c.r), std::max(0.0f, c.g), std::max(0.0f, c.b), std::clamp(c.a, 0.0f, 1.0f)};
 }
 
-// How a pixel's colour came about.
+// Explanation of a pixel's colour by two surfaces.
 struct Explained {
     float near_share = 0;
     Rgba far_colour;
 };
 
-// What to expect of all shares that explain the pixel's colour c, each as likely as it makes c and as it
-// agrees with the shape. What the two colours leave unexplained belongs to the surface that is known less.
+// The mean over all shares that explain the pixel's colour c, weighted by their likelihood for c and their
+// agreement with the shape. The unexplained rest belongs to the surface that is known less.
 Explained expected(Rgba c, const Guess& near, const Guess& far, float by_shape);
 
-// The nearer surface's share of a pixel of colour c, before what is known to lie behind it. No more light can
-// come from behind than there is.
+// The nearer surface's share of a pixel of colour c in front of a known background. The background cannot
+// give more light than it has.
 float share_before(Rgba c, const Guess& near, Rgba behind, float by_shape);
 
 }  // namespace petzval::engine

@@ -57,7 +57,7 @@ bool lit_around(const LitPicture& picture, int x, int y) {
     return false;
 }
 
-// What the neighbourhood of a silhouette's pixel says of the two surfaces that meet there.
+// The two surfaces that meet at a silhouette's pixel, from its neighbourhood.
 struct Sides {
     Pool near_clean, far_clean, far_mixed;
     float near_coc = 0, far_coc = 0;  // of the closest pixel of that side
@@ -117,8 +117,8 @@ Guess least_like(Rgba far_colour, const LitPicture& picture, View<const float> c
     return (unlit.empty() ? lit : unlit).guess();
 }
 
-// Lamps behind the nearer surface, as the pixels around one tell: the share of the light of lamps in it that
-// is theirs, and their radius.
+// Lamps behind the nearer surface, from the pixels around one: their share of the lamp light in it, and their
+// radius.
 struct LampsBehind {
     float share = 0, coc_px = 0;
 };
@@ -129,14 +129,14 @@ struct LitPixel {
     bool clean = false;
 };
 
-// How alike two lights are in colour, 0…1: red and white hardly.
+// Likeness of two lights in colour, 0…1: red and white are hardly alike.
 float alike(Rgba a, Rgba b) {
     const float cosine2 = dot(a, b) * dot(a, b) / std::max(1e-12f, dot(a, a) * dot(b, b));
     return cosine2 * cosine2 * cosine2 * cosine2;
 }
 
-// How surely a lamp that lights the nearer side belongs to the surface of its brightest pixel: one that
-// lights only a few pixels of that, and none that touches no silhouette, shows past its edge.
+// Certainty that a lamp which lights the nearer side belongs to the surface of its brightest pixel. A lamp
+// that lights only a few pixels of that surface, and none that touches no silhouette, shines past its edge.
 float share_of_surface(const std::vector<LitPixel>& nearer) {
     const float few_lit = completion_model.few_lit, many_lit = completion_model.many_lit;
     const auto brightest = std::max_element(nearer.begin(), nearer.end(),
@@ -182,7 +182,8 @@ LampsBehind find_lamps(const LitPicture& picture, View<const float> coc, View<co
     return {t * t * (3 - 2 * t), far_coc};
 }
 
-// Where lamps behind light a pixel, what the nearer surface's own colour does not explain is theirs, too.
+// Light that the nearer surface's own colour does not explain belongs to the lamps behind, if these light the
+// pixel.
 void give_to_lamps(Mixture& m) {
     if (m.lamps_behind <= 0) return;
     const Rgba more =
@@ -219,7 +220,7 @@ Mixture taken_apart(const LitPicture& picture, View<const float> coc, View<const
     m.near_share = e.near_share, m.far_colour = e.far_colour;
     const float far_share = 1 - m.near_share;
     m.near_colour = light_only(c - far_share * m.far_colour);
-    // What is left of a dark pixel is all that either may have.
+    // The rest of a dark pixel is all that either surface may have.
     if (far_share > completion_model.least_far_share) {
         const Rgba left = light_only((c - m.near_colour) * (1 / far_share));
         m.far_colour = {left.r, left.g, left.b, far.colour.a};
@@ -230,7 +231,7 @@ Mixture taken_apart(const LitPicture& picture, View<const float> coc, View<const
     return m;
 }
 
-// What shows of hidden samples where nothing is in front of them.
+// The visible colour of hidden samples without an occluder.
 Rgba composited(std::span<const Hidden> hidden) {
     Rgba sum;
     float open = 1;

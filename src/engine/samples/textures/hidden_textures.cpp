@@ -13,7 +13,7 @@ constexpr int kScale = 2;  // pixels on a side of one of details
 
 }  // namespace
 
-// What a tile looks at lies within 4 of its reach and 96 px: less than of outlines (docs/conventions.md).
+// A tile reads pixels within 4 of its reach and 96 px: less than outlines do (docs/conventions.md).
 HiddenTextures::HiddenTextures(const KnownSurfaces& known, const Mixtures& mixtures, float reach_px,
                                Workers& workers)
     : known_(known),
@@ -42,7 +42,7 @@ HiddenTextures::HiddenTextures(const KnownSurfaces& known, const Mixtures& mixtu
     details_ = {};
 }
 
-// Whether any tile looks at it.
+// True if any tile reads the block.
 bool HiddenTextures::in_sight(const Rect& block) const {
     const Rect near = block.grown(kScale * (farthest_ + around_) + 2 * kBlock);
     const int y1 = std::min(near.y1 / kTile, tile_at_.height() - 1);
@@ -100,7 +100,7 @@ void HiddenTextures::measure_details(Workers& workers) {
     });
 }
 
-// Of 2x2 pixels that show something sharp.
+// Mean of the sharp ones of 2x2 pixels.
 float HiddenTextures::detail(int x, int y) const {
     const Rgba sum =
         known_.colour(x, y) + known_.colour(x + 1, y) + known_.colour(x, y + 1) + known_.colour(x + 1, y + 1);

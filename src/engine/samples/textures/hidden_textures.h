@@ -1,8 +1,8 @@
-// Textures of surfaces in focus: behind what hides them they go on as textures.
+// Textures of surfaces in focus continue behind their occluders as textures.
 //
-// Around each silhouette it is found what repeats (repeats.h): what lies behind the silhouette is then what
-// shows an offset away, as far as the surroundings look like theirs. Grain, of which no place tells of
-// another, goes on as any other piece of it.
+// Around each silhouette, repetitions of the picture are found (repeats.h). The hidden part is then the
+// visible part an offset away, as far as their surroundings are alike. Grain, where no place predicts
+// another, continues as any other piece of itself.
 #pragma once
 
 #include "engine/samples/completion_model.h"
@@ -25,16 +25,14 @@ class HiddenTextures {
     };
 
 public:
-    // Borrows both. reach_px: how far behind a silhouette a lens looks; 0: nothing goes on.
+    // Borrows both. reach_px: how far behind a silhouette a lens looks; 0: no texture continues.
     HiddenTextures(const KnownSurfaces& known, const Mixtures& mixtures, float reach_px, Workers& workers);
 
-    // A point where something is hidden. Keeps what is found there: most of what is met around it is of one
-    // tile.
+    // A hidden point. Keeps the textures found there: most surfaces met around it belong to one tile.
     class Point {
     public:
         Point(const HiddenTextures& textures, int x, int y) : textures_(textures), x_(x), y_(y) {}
-        // What is hidden here, of the surface that shows at `shown`: its texture as far as one can tell, else
-        // `otherwise`.
+        // The hidden texture of the surface visible at `shown`, as far as it is known, else `otherwise`.
         Rgba going_on(KnownSurfaces::Place shown, Rgba otherwise);
 
     private:

@@ -15,7 +15,7 @@ constexpr float kBarPx = -16;
 
 bool in_bar(int x) { return x >= kLeft && x < kRight; }
 
-// The root mean square of what is filled in behind the bar, less the wall, and contrast of that.
+// Root mean square error of the filled part behind the bar, without the wall, and its contrast.
 struct Errors {
     double error = 0, contrast = 0;
 };

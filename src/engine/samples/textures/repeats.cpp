@@ -24,7 +24,7 @@ public:
         const Pairs& p = at(x, y);
         return p.count < least_ ? -1 : p.alike();
     }
-    // How many pixels were held against others, and what they show: the mean of its square.
+    // Number of pixels compared, and the mean square of their detail.
     float held() const { return most_; }
     float contrast() const { return 0.5f * at(0, 0).squares / std::max(1.0f, most_); }
 
@@ -37,7 +37,7 @@ private:
     float most_, least_;
 };
 
-// Where a parabola through three values, the middle one the largest, is highest: -1/2…1/2.
+// Position of the maximum of a parabola through three values, the middle one the largest: -1/2…1/2.
 float peak(float before, float here, float after) {
     const float bend = before + after - 2 * here;
     return bend < -1e-6f ? std::clamp(0.5f * (before - after) / bend, -0.5f, 0.5f) : 0.0f;
@@ -117,7 +117,7 @@ Texture texture_of(const Details& piece) {
     const Correlation alike(piece);
     if (alike.held() < kLeastHeld || alike.contrast() < completion_model.texture_contrast) return texture;
     find_repeats(alike, piece.farthest, texture);
-    // What repeats is no grain.
+    // A texture that repeats is not grain.
     texture.grain = std::clamp(5 * (completion_model.texture_least - texture.repeats[0].alike), 0.0f, 1.0f) *
                     grain_of(piece);
     return texture;

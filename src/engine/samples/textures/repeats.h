@@ -1,7 +1,7 @@
-// What repeats in a piece of a picture: the picture held against itself, moved.
+// Repetitions in a piece of a picture, found by comparing the picture with itself, shifted.
 //
 // K. He and J. Sun, "Statistics of patch offsets for image completion", 2012: textures match themselves at
-// few offsets. Those are found here by normalised correlation, of what is known alone.
+// few offsets. Normalised correlation of the known pixels finds these offsets.
 #pragma once
 
 #include <array>
@@ -12,7 +12,8 @@ namespace petzval::engine {
 // A square piece of a picture: what its light differs from the mean around, relative to both; 0 where nothing
 // is known.
 struct Details {
-    // Its middle, `inner` on a side, is to be held against all that is no farther than `farthest` away.
+    // Detail of a piece whose middle, `inner` on a side, is compared with all pixels no farther than
+    // `farthest`.
     Details(int inner, int farthest);
 
     int inner, farthest, side;
@@ -23,10 +24,10 @@ struct Details {
     void set(int x, int y, float value) { values[at(x, y)] = value, known[at(x, y)] = 1; }
 };
 
-// Of all pairs of pixels an offset apart: sums of products, of squares of both, how many.
+// Sums over all pairs of pixels an offset apart: of products, of squares of both, and their number.
 struct Pairs {
     float products = 0, squares = 0, count = 0;
-    // Correlation, -1…1: what one side tells of the other. Little where there is little to be seen.
+    // Correlation of both sides, -1…1. Small where there is little detail.
     float alike() const { return 2 * products / (squares + 1e-3f * count + 1e-12f); }
 };
 
@@ -37,14 +38,15 @@ struct Texture {
         float alike;  // 0…1
     };
     std::array<Offset, kMost> repeats;  // best first; `alike` is 0 where there are no more
-    // 0…1: it looks the same everywhere, and one place tells nothing of the next, as of sand or noise.
+    // Grain, 0…1: the texture looks the same everywhere and no place predicts another, as in sand or noise.
     float grain = 0;
 };
 
 Texture texture_of(const Details& piece);
 
-// Of offsets with 0 <= y <= farthest, |x| <= farthest, in rows of 2 farthest + 1; those of -y are the same.
-// Every third pixel of every third row of the middle is held against others, the rows shifted by one.
+// Pairs of the offsets with 0 <= y <= farthest, |x| <= farthest, in rows of 2 farthest + 1; those of -y are
+// the same. Every third pixel of every third row of the middle is compared with others, the rows shifted by
+// one.
 std::vector<Pairs> pairs_of(const Details& piece);
 
 }  // namespace petzval::engine
