@@ -14,7 +14,7 @@ from pages import SECONDS, SITE, browser, server_of  # noqa: E402
 from selenium.webdriver.support.ui import WebDriverWait  # noqa: E402
 
 OUT = ROOT / "docs/pictures/lab"
-PATENT = """f = 100  F/3.5   front group of a triplet, as a patent prints it
+PATENT = """f = 100  F/3.5   front group of a triplet, made up
 1   26.2    5.0   1.6170  53.9   24
 2   ∞       10.1                 24
 3   -58.0   1.5   1.5796  41.0   19
