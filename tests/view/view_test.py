@@ -330,7 +330,7 @@ class ViewTest(window.WindowTest):
             resize 1000 850
             wait
             focus 4000 4000
-            expect error nothing
+            expect error no depth
             show nothing
             expect error
         """, "gone.exr", "--ui-scale", "3")
