@@ -17,9 +17,10 @@
 namespace petzval::engine {
 
 struct RingRule {
-    float ratio = 1.15f;      // of one radius to the next
-    float full_res_px = 6;    // rings up to this radius are gathered at full resolution
-    float largest_cells = 8;  // rings beyond, at the finest of 1/2, 1/4, … where they are not wider than this
+    float ratio = 1.15f;    // of one radius to the next
+    float full_res_px = 6;  // rings up to this radius are gathered at full resolution
+    float largest_cells =
+        12;  // rings beyond, at the finest of 1/2, 1/4, … where they are not wider than this
     // Aberrations spread light wider than its ring's radius says. A kernel that does not end within
     // core_end() is gathered in two pieces: its core on the ring's level, its skirt on a coarser one where it
     // is as small.
