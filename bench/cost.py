@@ -7,7 +7,7 @@ reads and writes of buffers. Any device serves, as counts do not depend on it.
 The model: the largest of operations, samples and bytes, each divided by the card's published peak; RGBA16F is sampled at
 half rate on GeForce and GCN. Bytes are those that dispatches must read and write at least once (./dev bench gpu).
 Its error: the last column compares the operations in a program's text with the instructions that Mesa's AMD compiler makes
-of it for Navi 21 (scalar ones and waits among them); loops that one of both unrolls move it.
+of it for Navi 21, scalar ones and waits included. Where only the compiler unrolls a loop, its count is higher.
 Not in the model: lanes that wait for others of their subgroup, latency, barriers, shared memory.
 """
 import argparse
