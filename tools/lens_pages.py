@@ -56,9 +56,10 @@ def published(validator):
     return found
 
 
-def published_part(told_of_it):
+def published_part(told_of_it, source):
     if not told_of_it:
-        return "<h2>Published numbers</h2><p>The source prints surfaces and no number computed from them.</p>"
+        why = "This lens was made for petzval; nothing is published about it." if source.startswith("DERIVED") else "The source prints no number that these surfaces reproduce; the notes above say why."
+        return f"<h2>Published numbers</h2><p>{why}</p>"
     return (f'<h2>Published numbers</h2><div class="rows">{table(("quantity", "published", "petzval", "difference", "allowed", "reproduced"), told_of_it["rows"])}</div>'
             f'<p class="hint">{html.escape(told_of_it["sources"])}</p>')
 
@@ -71,7 +72,7 @@ def lens_page(lens, facts, told_of_it):
     paragraphs = [lens["history"], f"Source: {lens['source']}" if lens["source"] else None, *facts.get("notes", []), *facts.get("warnings", [])]
     text = "".join(f"<p>{html.escape(words)}</p>" for words in paragraphs if words)
     return page(f"{name}: {title}", f'<section><p><a href="{lab_link(name)}">Open it in the lab</a> · <a href="index.html">All lenses</a></p>{text}'
-                f'{table(("number", "value"), numbers)}</section><section><h2>Discs</h2><div class="discs">{discs}</div>{published_part(told_of_it) if facts["lens"]["model"] == "prescription" else ""}</section>')
+                f'{table(("number", "value"), numbers)}</section><section><h2>Discs</h2><div class="discs">{discs}</div>{published_part(told_of_it, lens["source"]) if facts["lens"]["model"] == "prescription" else ""}</section>')
 
 
 def draw(petzval, folder, name, disc):
