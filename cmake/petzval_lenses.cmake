@@ -1,5 +1,5 @@
 # lenses/*.json compiled into the library: one generated file with every text as a string, so that an installed
-# program finds its lenses without looking for files. PETZVAL_LENSES_WITHOUT: lists of a lens file that a build which goes
+# program finds its lenses without looking for files. PETZVAL_LENSES_WITHOUT: members of a lens file that a build which goes
 # over the wire leaves out; spaces at line starts go, too.
 
 file(GLOB lens_names CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/lenses ${PROJECT_SOURCE_DIR}/lenses/*.json)
@@ -17,7 +17,7 @@ foreach(name ${lens_names})
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${path})
   file(READ ${path} text)
   foreach(member ${PETZVAL_LENSES_WITHOUT})
-    string(REGEX REPLACE ",\n \"${member}\": (\\[\n[^]]*\n \\]|\\[[^\n]*\\])" "" text "${text}")
+    string(REGEX REPLACE ",\n \"${member}\": (\\[\n[^]]*\n \\]|\\[[^\n]*\\]|\"[^\n]*\")" "" text "${text}")
   endforeach()
   if(PETZVAL_LENSES_WITHOUT)
     string(REGEX REPLACE "\n *" "" text "${text}")
