@@ -11,8 +11,10 @@
 #include "verbs.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
+#include <numbers>
 #include <sstream>
 
 namespace petzval::cli {
@@ -89,6 +91,16 @@ void describe_depth(const Shot& shot, const InputFlags& flags, std::ostream& out
         << shot.colour.size() << " pixels without depth\n";
 }
 
+// Horizontal, of a lens focused at infinity.
+std::optional<FoundNumber> field_of_view(const FoundCamera& camera) {
+    if (!camera.focal_length_mm || !camera.sensor_width_mm) return camera.horizontal_fov_deg;
+    const double half_width = camera.sensor_width_mm->value / (2 * camera.focal_length_mm->value);
+    FoundNumber angle;
+    angle.value = 2 * std::atan(half_width) * 180 / std::numbers::pi;
+    angle.origin = "of the sensor's width at infinity";
+    return angle;
+}
+
 void describe_camera(const FoundCamera& camera, std::ostream& out) {
     const auto line = [&](const char* what, const std::optional<FoundNumber>& found, const char* unit,
                           const char* flag) {
@@ -101,6 +113,7 @@ void describe_camera(const FoundCamera& camera, std::ostream& out) {
     out << "camera\n";
     line("focal length    ", camera.focal_length_mm, " mm", "--focal-length");
     line("sensor width    ", camera.sensor_width_mm, " mm", "--sensor-width");
+    if (const auto angle = field_of_view(camera)) line("field of view   ", angle, " deg", "");
     line("f-number        ", camera.f_number, "", "--fstop");
     line("focus distance  ", camera.focus_distance_m, " m", "--focus");
 }

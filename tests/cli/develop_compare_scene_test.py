@@ -3,7 +3,7 @@ import math
 import struct
 import unittest
 
-from pictures import attribute, picture, plane, read_exr, read_png, write_exr, write_png
+from pictures import attribute, camera_attributes, picture, plane, read_exr, read_png, write_exr, write_png
 from program import CommandLineTest
 
 KEYS = ["psnr_lin", "ssim_lin", "psnr_srgb", "ssim_srgb", "psnr_log", "max_error", "energy_ratio"]
@@ -132,6 +132,11 @@ class Inspect(CommandLineTest):
         self.assertIsNone(report["camera"]["focus_distance_m"])
         self.assertEqual(report["depth"]["misses"], 8)
         self.assertEqual(report["parts"][0]["compression"], "none")
+        self.assertNotIn("field of view", text)
+
+    def test_the_field_of_view_follows_from_the_camera(self):
+        write_exr(self.path("in.exr"), picture(8, 6, 0.5, 2.0), attributes=camera_attributes(18, 36, 2, 3))  # 2 atan(36 / 36)
+        self.assertIn("field of view   90 deg  (of the sensor's width at infinity)", self.succeed("inspect", "in.exr").out)
 
 
 class Scene(CommandLineTest):
