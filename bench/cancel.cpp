@@ -33,7 +33,7 @@ int main(int count, char** words) {
     if (!frame) fail(frame.error().message);
     const FoundCamera& found = frame->camera;
     if (!found.focal_length_mm || !found.sensor_width_mm || !found.f_number || !found.focus_distance_m)
-        fail("the picture lacks camera numbers; make it with `petzval scene make`");
+        fail("the picture has no camera numbers; make it with `petzval scene make`");
     DefocusJob job;
     job.colour = frame->colour, job.depth_m = frame->depth, job.place = frame->place;
     job.camera = {found.focal_length_mm->value, found.sensor_width_mm->value, found.f_number->value,

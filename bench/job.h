@@ -59,7 +59,7 @@ inline void read_words(int count, char** words, Asked& asked,
 inline DefocusJob job_of(const Picture& colour, const Plane& depth_m, const FoundCamera& found,
                          const Asked& asked) {
     if (!found.focal_length_mm || !found.sensor_width_mm || !found.focus_distance_m)
-        fail("the picture lacks camera numbers; make it with `petzval scene make`");
+        fail("the picture has no camera numbers; make it with `petzval scene make`");
     DefocusJob job;
     job.colour = colour, job.depth_m = depth_m;
     job.place = Place::whole(colour.rect());

@@ -27,7 +27,7 @@ int main(int count, char** words) {
     if (!frame) fail(frame.error().message);
     const FoundCamera& found = frame->camera;
     if (!found.focal_length_mm || !found.sensor_width_mm || !found.f_number)
-        fail("the picture lacks camera numbers; make it with `petzval scene make`");
+        fail("the picture has no camera numbers; make it with `petzval scene make`");
     const int frames = std::atoi(words[2]);
     const double near_m = std::atof(words[5]), far_m = std::atof(words[6]);
 

@@ -4,7 +4,8 @@ Usage: check_prose.py [--list | --tighten] [repository root]
 
 Pages (every .md): words and forms of tools/prose_words.txt, lines over 100 columns, sentences over 35 words, more than
 four numbers in a sentence outside tables, titles without a subject. Comments of C++ and GLSL: the same words, and
-blocks whose first word leaves their subject out. What was there before the rules is counted in
+blocks whose first word leaves their subject out. Texts in quotes of src and apps (help, messages, sheets): the same
+words, except "no such". What was there before the rules is counted in
 tools/prose_allowed.txt, per page and per folder of sources; a count may only fall. --list shows all findings,
 --tighten stores lower counts. Subjects of new commits: at most 60 characters, and imperative.
 
@@ -30,6 +31,7 @@ HEADLESS = re.compile(r"(Of|What(ever)?|Whether|Who(ever|se)?|Which(ever)?|Where
 QUESTION = re.compile(r"^(What|Whether|Who|Where|That|Of|By)\b")
 FENCE = re.compile(r"^(```.*?^```|<!--.*?-->)", re.DOTALL | re.MULTILINE)
 NUMBER = re.compile(r"(?<![\w.#/×-])[-−+±]?\d[\d,.]*(?: \d{3}\b)*(?:\s?[×x]\s?\d+)?")
+QUOTED = re.compile(r'"(?:[^"\\\n]|\\.)*"(?:\s*"(?:[^"\\\n]|\\.)*")*')
 COMMENT = re.compile(r"^\s*//+!?<? ?(.*)$")
 NO_IMPERATIVE = set("what who whose whether where when which that a an the of in on at by for from to with no not all each "
                     "every some any among between as if it its there this these those one two three four more less only "
@@ -131,6 +133,28 @@ def comment_findings(text):
             yield line, *found
 
 
+def quoted_texts(text):
+    """(line, text) of the string literals with a space in them, neighbours joined."""
+    bare = re.sub(r"(?m)(?:^|\s)//.*$", "", text)
+    for match in QUOTED.finditer(bare):
+        joined = re.sub(r'"\s*"', "", match[0])
+        if " " in joined:
+            yield bare.count("\n", 0, match.start()) + 1, joined
+
+
+def quote_findings(text):
+    for line, quoted in quoted_texts(text):
+        for found in word_findings(quoted.replace("no such", "no")):
+            yield line, *found
+
+
+def source_findings(name, text):
+    """(line, rule, message) of a source."""
+    yield from comment_findings(text)
+    if name.startswith(("src/", "apps/")) and not name.endswith("_test.cpp"):
+        yield from quote_findings(text)
+
+
 def files_of(root):
     listed = subprocess.run(["git", "-C", root, "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
                             stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
@@ -148,7 +172,7 @@ def findings(root):
         page = name.endswith(".md")
         text = (root / name).read_text(errors="replace")
         place = name if page else name.rsplit("/", 1)[0]
-        for line, rule, message in (page_findings if page else comment_findings)(text):
+        for line, rule, message in page_findings(text) if page else source_findings(name, text):
             if not any(rule == r and name.startswith(p) for r, p in SPARED):
                 found.setdefault(place, []).append(f"{name}:{line}: {message}")
     return found

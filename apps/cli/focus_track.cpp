@@ -49,7 +49,8 @@ void check(FocusTrackFlags& flags, const Verb& verb) {
     flags.run.apply();
     flags.overwrite.check();
     flags.input.check();
-    if (flags.at.empty()) throw UsageError("what is to be sharp? --at 1001:960,540 names a pixel in a frame");
+    if (flags.at.empty())
+        throw UsageError("no pixel to keep in focus: give --at FRAME:X,Y, such as --at 1001:960,540");
     for (const std::string& text : flags.at) flags.picks.push_back(parse_pick(text));
     const auto by_frame = [](const FocusPick& a, const FocusPick& b) { return a.frame < b.frame; };
     std::stable_sort(flags.picks.begin(), flags.picks.end(), by_frame);
@@ -105,7 +106,7 @@ private:
         else
             record["warnings"].push_back("frame " + std::to_string(frame) + ": nothing is seen at " +
                                          std::to_string(pixel.x) + "," + std::to_string(pixel.y) +
-                                         "; focus goes on between its neighbours");
+                                         "; focus is interpolated between its neighbours");
         return record;
     }
 
@@ -132,7 +133,7 @@ private:
 
 void add_focus_track(Verb& program, Action& chosen) {
     Verb& verb = add_verb(program, "focus-track",
-                          "the focus distance of every frame of a shot, by pixels that are to be sharp",
+                          "the focus distance of every frame of a shot, from pixels to keep in focus",
                           "petzval focus-track beauty.####.exr -o focus.csv --at 1001:960,540 1040:1100,500\n"
                           "petzval defocus beauty.####.exr -o out.####.exr --track focus.csv");
     auto flags = std::make_shared<FocusTrackFlags>();

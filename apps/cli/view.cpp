@@ -261,7 +261,7 @@ void check_scene(ViewFlags& flags) {
     for (const SceneSummary& one : scene_list()) known.push_back(one.name);
     if (!is_gltf(flags.scene) && std::find(known.begin(), known.end(), flags.scene) == known.end())
         throw UsageError("--scene " + flags.scene + ": no such scene" + did_you_mean(flags.scene, known) +
-                         "; petzval scene list tells them");
+                         "; petzval scene list names them");
     if (!is_gltf(flags.scene) && !flags.scene_camera.empty())
         throw UsageError("--scene-camera has no effect: " + flags.scene + " is no glTF file");
     flags.input.path = flags.scene;

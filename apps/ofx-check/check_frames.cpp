@@ -135,7 +135,7 @@ void check_abort(const Setup& setup) {
     if (counts.aborts_asked == 0 && scene.plain_seconds > kLong)
         broken("abort.obeyed", "a frame of " + std::to_string(scene.plain_seconds) + " s never asks");
     if (counts.aborts_asked > 0 && took > kLong && took > 0.8 * scene.plain_seconds)
-        broken("abort.obeyed", "it asks and goes on: " + std::to_string(took) + " s");
+        broken("abort.obeyed", "it asks whether to abort and continues: " + std::to_string(took) + " s");
     expect_same("abort.obeyed", scene.stage.render(*scene.effect), scene.plain.picture, "the frame after");
 }
 

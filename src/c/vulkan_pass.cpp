@@ -39,7 +39,7 @@ Status check_size(std::uint32_t width, std::uint32_t height) {
 Result<RealtimeSettings> settings_of(const petzval_pass_settings& given) {
     if (!given.get_instance_proc_addr || !given.instance || !given.physical_device || !given.device)
         return Error{ErrorCode::InvalidArgument,
-                     "settings lacks get_instance_proc_addr, instance, physical_device or device"};
+                     "settings needs get_instance_proc_addr, instance, physical_device and device"};
     if (const Status size = check_size(given.width, given.height); !size) return size.error();
     RealtimeSettings settings;
     settings.width = given.width, settings.height = given.height;
@@ -83,7 +83,7 @@ RealtimeImages::Input input_of(const petzval_pass_image& given) {
 petzval_status record(HostPass& host, const petzval_pass_frame& f) {
     if (!f.commands) return missing("frame.commands");
     if (!f.colour.view || !f.depth.view || !f.result)
-        return fail(PETZVAL_INVALID_ARGUMENT, "frame lacks colour, depth or result");
+        return fail(PETZVAL_INVALID_ARGUMENT, "frame needs colour, depth and result");
     if (!f.camera) return missing("frame.camera");
     if (f.slot >= host.settings().slots)
         return fail(PETZVAL_INVALID_ARGUMENT,

@@ -80,11 +80,11 @@ std::string rounded(double value) {
 // The ratios of M. Kawase (CEDEC 2008; docs/explain/dynamic-range.md): sun to shade 10 to 100, shade to a
 // room about 10.
 std::string compared(double diffuse_over_shadow) {
-    const std::string times = rounded(diffuse_over_shadow) + " times the shadow";
-    if (diffuse_over_shadow < 10)
-        return times + ": less than sun to shade or shade to a room, which are 10 and more";
-    if (diffuse_over_shadow <= 100) return times + ": as sun to shade, 10 to 100";
-    return times + ": more than sun to shade, 10 to 100; as outdoors and a room in one picture";
+    const std::string contrast = " the contrast of sun and shade (10 to 100 times)";
+    const std::string times = rounded(diffuse_over_shadow) + " times the shadow: ";
+    if (diffuse_over_shadow < 10) return times + "below" + contrast;
+    if (diffuse_over_shadow <= 100) return times + "within" + contrast;
+    return times + "above" + contrast + ", as in a room with the outdoors in view";
 }
 
 DynamicRange nothing_lit(const Tally& t) {
@@ -100,7 +100,7 @@ void add_advice(DynamicRange& range, bool low, bool display_referred) {
         range.advice.push_back(
             "nothing is brighter than 1 and the middle lies at " + rounded(range.middle) +
             ": this looks like display codes, not light. Taken for light, its range is too "
-            "small (0.2 on a display is 0.029 of white), and what is blurred comes out dull: "
+            "small (0.2 on a display is 0.029 of white), and blurred highlights look dull: "
             "convert it to scene-linear light first");
     if (low && range.clipped_share > 1e-4)
         range.advice.push_back(

@@ -40,9 +40,9 @@ TEST(DynamicRange, IsHeldAgainstTheRatiosOfRealLight) {
     const auto said = [](float ratio) {
         return measure_dynamic_range(outdoors(ratio).view(), false).comparison;
     };
-    EXPECT_NE(said(6).find("less than sun to shade"), std::string::npos) << said(6);
-    EXPECT_NE(said(32).find("as sun to shade"), std::string::npos) << said(32);
-    EXPECT_NE(said(400).find("more than sun to shade"), std::string::npos) << said(400);
+    EXPECT_NE(said(6).find("below the contrast of sun"), std::string::npos) << said(6);
+    EXPECT_NE(said(32).find("within the contrast of sun"), std::string::npos) << said(32);
+    EXPECT_NE(said(400).find("above the contrast of sun"), std::string::npos) << said(400);
 }
 
 TEST(DynamicRange, IsAdvisedBeforeContrast) {

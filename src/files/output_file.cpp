@@ -120,7 +120,7 @@ Status check_target(const std::string& path) {
     const std::string folder = target->folder();
     struct stat status = {};
     if (::stat(folder.c_str(), &status) != 0)
-        return output_failed(path, "cannot be written: there is no folder " + folder);
+        return output_failed(path, "cannot be written: no such folder: " + folder);
     if (!S_ISDIR(status.st_mode))
         return output_failed(path, "cannot be written: " + folder + " is not a folder");
     // The file is replaced by renaming, so that the folder is what must be writable.

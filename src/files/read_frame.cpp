@@ -16,7 +16,7 @@ namespace {
 
 Error unknown_format(const InputFile& file) {
     return invalid_file(file.path(), "is no picture that can be read (OpenEXR, " + raster_formats() +
-                                         "), whatever its name says");
+                                         "), despite its file name");
 }
 
 Result<Frame> read(const std::string& path, ReadOptions options, bool pixels) {

@@ -364,8 +364,8 @@ std::string f_number_problem(const optics::Prescription& lens) {
     if (!share || *share >= 1) return {};
     std::ostringstream text;
     text.precision(3);
-    text << "its clear apertures pass no more than f/" << traced->f_number() / *share << " where it says f/"
-         << traced->f_number();
+    text << "its clear apertures pass no more than f/" << traced->f_number() / *share
+         << " where the file states f/" << traced->f_number();
     return text.str();
 }
 

@@ -349,7 +349,8 @@ Status Reader::finish(const Json& root) {
         lens.aperture_kind = ApertureKind::StopRadius;
         lens.aperture = lens.surfaces[std::size_t(lens.stop)].clear_radius_mm;
         if (std::isinf(lens.aperture))
-            return at_line(root.line, "there is neither an \"aperture\" nor a \"semi_aperture\" at the stop");
+            return at_line(root.line,
+                           "the lens has neither an \"aperture\" nor a \"semi_aperture\" at the stop");
         file_.warnings.emplace_back("no aperture is given; the stop's clear radius is taken");
     }
     if (lens.field == 0 && object_height_mm_ > 0) {

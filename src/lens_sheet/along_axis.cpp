@@ -124,7 +124,7 @@ Figure axial_fan(const Subject& subject) {
             curve.push_back({i / 40.0, (i < 0 ? -1 : 1) * height(rho)});
         }
     }
-    const Axis y = symmetric(axis_around(curves, &Point::y, "misses the middle by, µm", 0.2));
+    const Axis y = symmetric(axis_around(curves, &Point::y, "transverse error, µm", 0.2));
     Plot plot(kWide, kTall, "Rays on the sensor", {-1, 1, "height in the pupil"}, y);
     for (std::size_t i = 0; i < curves.size(); ++i) plot.curve(curves[i], lines_of(subject)[i].css);
     return {plot.str(),

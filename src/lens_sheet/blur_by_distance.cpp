@@ -84,10 +84,10 @@ Figure labelled() {
         svg.str(),
         "A, diameter of the pupil; f, focal length; F, distance in focus; P, distance of a point. Its light "
         "meets before the film and arrives as a disc of the diameter <b>c = A · |P − F|/P · f/(F − f)</b>, "
-        "the circle of confusion (petzval counts its radius, negative in front of focus). As long as c is "
-        "less than what one sees, it counts as sharp: the points for which it is make the depth of field, "
-        "the places of the film the depth of focus. Here what one sees is a tenth of A, so that there is "
-        "something to see.",
+        "the circle of confusion (petzval counts its radius, negative in front of focus). A c that is "
+        "too small to see counts as sharp. The points with such a c are the depth of field; the places of "
+        "the film that keep it small are the depth of focus. This drawing calls a tenth of A too small to "
+        "see, so that both ranges can be drawn.",
         12};
 }
 

@@ -183,7 +183,7 @@ private:
 
 Figure drawn_section(const Subject& subject) {
     return {Diagram(subject).str(),
-            std::string("A schematic: this lens is known by what it does to light, and not by its glass. ") +
+            std::string("A schematic: this lens is defined by its aberration curves, without glasses. ") +
                 (elements_of(subject.name()).empty()
                      ? "The outline stands for any lens. "
                      : "Its elements are drawn as lenses of this kind have them, not to scale. ") +

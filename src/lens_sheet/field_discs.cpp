@@ -79,16 +79,16 @@ std::optional<Figure> pair_of(const Subject& subject, const std::string& title, 
 
 std::vector<Figure> traced_fields(const Subject& subject) {
     std::vector<Figure> figures;
-    if (auto large =
-            pair_of(subject, "Large discs", {}, 8,
-                    "Far from focus the outline tells: rims of the barrel cut the disc to a lemon, from "
-                    "opposite sides in front of and behind the focus."))
+    if (auto large = pair_of(
+            subject, "Large discs", {}, 8,
+            "Far from focus the outline shows most: the rims of the barrel cut the disc to a lemon, from "
+            "opposite sides in front of and behind the focus."))
         figures.push_back(std::move(*large));
-    if (auto small =
-            pair_of(subject, "Small discs", {}, 2,
-                    "Near the focus the field's own aberrations tell: coma's one bright edge, astigmatism "
-                    "that draws discs out along circles on one side of focus and along radii on the "
-                    "other, which is what swirls."))
+    if (auto small = pair_of(
+            subject, "Small discs", {}, 2,
+            "Near the focus the aberrations of the field show most: coma's one bright edge, astigmatism "
+            "that draws discs out along circles on one side of focus and along radii on the "
+            "other, which is what swirls."))
         figures.push_back(std::move(*small));
     return figures;
 }
@@ -126,8 +126,8 @@ std::vector<Figure> drawn_fields(const Subject& subject) {
          "focus and point to it on the other.",
          &astigmatism},
         {curved.c_str(),
-         "Field curvature: the corners focus nearer to the lens, as in all simple lenses. What is behind the "
-         "focus is larger there, what is in front smaller, or already behind.",
+         "Field curvature: the corners focus nearer to the lens, as in all simple lenses. Lights behind "
+         "the focus make larger discs there; lights in front make smaller ones, or fall behind.",
          &curvature},
         {coloured.c_str(),
          "Lateral colour: the blue image is larger than the red one. Discs get a blue edge outward and a red "

@@ -158,7 +158,7 @@ Figure stops(const Subject& subject) {
         "before the film). The stop narrows all three; the focused point stays where it is, the others "
         "shrink "
         "until through a pinhole everything is sharp, as if there were no lens. Below, the two discs as this "
-        "lens makes them, each row to one scale, for what is in focus at 3f, 2f and 1.5f.",
+        "lens makes them, each row to one scale, for a focus at 3f, 2f and 1.5f.",
         12};
 }
 

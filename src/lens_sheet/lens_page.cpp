@@ -50,7 +50,7 @@ std::vector<Section> sections_of(const Subject& subject) {
         {"field", "Over the field",
          subject.prescription()
              ? ""
-             : "What is drawn speaks of the axis alone; what happens off it is set by flags. Five of them:",
+             : "The drawing shows the axis alone; options set the rest of the field. Five of them:",
          field_discs(subject)});
     Figures sharpness{spot_diagrams(subject)};
     append(sharpness, mtf_figures(subject));

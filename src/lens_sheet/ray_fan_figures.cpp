@@ -68,7 +68,7 @@ std::vector<Figure> ray_fan_figures(const Subject& subject) {
         for (const auto& curve : all.back().meridional) curves.push_back(curve);
         for (const auto& curve : all.back().sagittal) curves.push_back(curve);
     }
-    const Axis y = symmetric(axis_around(curves, &Point::y, "misses by, µm", 2));
+    const Axis y = symmetric(axis_around(curves, &Point::y, "transverse error, µm", 2));
     if (all.empty()) return {};
     Svg svg(4 * kWide, kTall, "ray fans of " + subject.name());
     double x = 0;

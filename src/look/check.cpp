@@ -40,7 +40,7 @@ bool has_texture(const Look& look) {
 
 // Why no disc of this look shows what the lens is like.
 std::string why_blind(const Look& look) {
-    if (look.engine == "gaussian") return with_engine(look) + ", whose blur is round whatever the lens";
+    if (look.engine == "gaussian") return with_engine(look) + ", whose blur is always round";
     if (is_published_stage(look))
         return std::string("with gather.stage ") + name_of(look.gather.stage) +
                ", which knows round discs alone";
@@ -269,8 +269,8 @@ Rules rules_of_light() {
         {{"glare.threshold"},
          [](const Look& l) {
              return unless(l.glare.star > 0 || l.glare.ghosts > 0,
-                           l.glare.bloom > 0 ? "without glare.star or glare.ghosts; bloom has a threshold of "
-                                               "its own, glare.bloom_threshold"
+                           l.glare.bloom > 0 ? "without glare.star or glare.ghosts; bloom has a separate "
+                                               "threshold, glare.bloom_threshold"
                                              : "without glare.star or glare.ghosts");
          }},
         {{"plate.knee", "plate.peak"},

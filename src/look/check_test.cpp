@@ -32,8 +32,7 @@ TEST(LookCheck, EachChoiceWithoutEffectIsASentenceThatBeginsWithItsField) {
     ASSERT_EQ(found.size(), 3u);
     EXPECT_EQ(found[0].message, "quality has no effect with engine gaussian");
     EXPECT_EQ(found[0].field, "quality");
-    EXPECT_EQ(found[1].message,
-              "lens.blades has no effect with engine gaussian, whose blur is round whatever the lens");
+    EXPECT_EQ(found[1].message, "lens.blades has no effect with engine gaussian, whose blur is always round");
     EXPECT_EQ(found[2].field, "lens.wave");
 }
 
@@ -49,7 +48,7 @@ TEST(LookCheck, BloomHasAThresholdOfItsOwn) {
     EXPECT_EQ(
         idle(look, {"glare.threshold"}),
         std::vector<std::string>{"glare.threshold has no effect without glare.star or glare.ghosts; bloom "
-                                 "has a threshold of its own, glare.bloom_threshold"});
+                                 "has a separate threshold, glare.bloom_threshold"});
     EXPECT_TRUE(idle(look, {"glare.bloom_threshold"}).empty());
 }
 

@@ -8,9 +8,9 @@ namespace {
 constexpr Named<Quality> kQualities[]{{Quality::Draft, "draft", "quick"},
                                       {Quality::Standard, "standard", "for work"},
                                       {Quality::Final, "final", "as exact as the engine can be"}};
-constexpr Named<Fill> kFills[]{{Fill::Full, "full", "what is around goes on, lamps as well"},
-                               {Fill::Dim, "dim", "what is around goes on, of lamps what shows"},
-                               {Fill::Off, "off", "nothing is added to what is known"}};
+constexpr Named<Fill> kFills[]{{Fill::Full, "full", "extends the surroundings, lamps included"},
+                               {Fill::Dim, "dim", "extends the surroundings without highlights"},
+                               {Fill::Off, "off", "adds nothing"}};
 constexpr Named<ScatterView> kScatterViews[]{
     {ScatterView::Result, "result", "the picture"},
     {ScatterView::Layers, "layers", "the surfaces seen and found behind them"},
@@ -80,11 +80,11 @@ constexpr Named<DepthKind> kDepthKinds[]{
     {DepthKind::MistInverse, "mist-inverse", "mist, falloff Inverse Quadratic"}};
 constexpr Named<DepthEdges> kDepthEdges[]{
     {DepthEdges::Auto, "auto", "snap where most silhouettes are ramps"},
-    {DepthEdges::Keep, "keep", "as the depth says"},
+    {DepthEdges::Keep, "keep", "never sharpens"},
     {DepthEdges::Snap, "snap", "each pixel of a ramp goes to one side"}};
 constexpr Named<ErrorCode> kErrorCodes[]{
     {ErrorCode::InvalidArgument, "invalid-argument", "a flag, a number or a field is wrong or missing"},
-    {ErrorCode::InvalidFile, "invalid-file", "an input is missing, damaged or lacks what is needed"},
+    {ErrorCode::InvalidFile, "invalid-file", "an input is missing, damaged or incomplete"},
     {ErrorCode::Unsupported, "unsupported", "understood, but not possible here"},
     {ErrorCode::OutputFailed, "output-failed", "an output could not be written"},
     {ErrorCode::OutOfMemory, "out-of-memory", "the work does not fit the memory limit"},

@@ -56,7 +56,7 @@ Status FrameMaker::grow_to(const Rect& window) {
              " pixels (left, top, right, bottom) for the light that leaves it" +
              (settings_.overscan_px ? "" : "; shot.overscan_px off cuts it"));
     else if (settings_.overscan_px && *settings_.overscan_px != kOverscanOff)
-        note("overscan: the picture fills its frame on every side, so there is nothing to grow");
+        note("overscan has no effect: the picture already fills its frame on every side");
     return Done{};
 }
 

@@ -49,7 +49,7 @@ Result<Range> parse_range(std::string_view text, std::string_view all) {
     Range range{*first, *first, 1};
     if (take(rest, '-')) {
         const auto last = take_number(rest);
-        if (!last) return refused(all, "a range lacks its last frame, or that is too large; as 1001-1100");
+        if (!last) return refused(all, "a range needs a last frame that is not too large, such as 1001-1100");
         range.last = *last;
     }
     if (take(rest, 'x')) {

@@ -241,7 +241,8 @@ private:
     }
 
     Result<Track> finished() {
-        if (track_.columns_.empty()) return wrong("has no key: rows under frame and what changes");
+        if (track_.columns_.empty())
+            return wrong("has no key: it needs rows under the column frame and a column of values");
         for (Track::Column& c : track_.columns_) {
             if (known_column(c.name) || c.name == kFollow) continue;
             // A column of numbers alone is mixed, but where the field takes whole numbers only.
@@ -259,7 +260,7 @@ private:
             if (track_.find(some) && !track_.find(others))
                 return wrong("has " + std::string(some) + " without " + others);
         if (const auto frame = says_focus_twice())
-            return wrong("says the focus twice in frame " + std::to_string(*frame) +
+            return wrong("gives the focus twice in frame " + std::to_string(*frame) +
                          "; give one of focus, focus_x with focus_y, point_x …");
         if (track_.find(kFollow) && !track_.find("focus_x"))
             return wrong("follow has no effect without focus_x and focus_y");
@@ -297,7 +298,7 @@ Status Track::add(Track other) {
         for (const Column& own : columns_)
             if (own.name == theirs.name || (is_focus(own.name) && is_focus(theirs.name)))
                 return Error{ErrorCode::InvalidArgument,
-                             "shot.rack: the track says the focus too, in its column " + own.name};
+                             "shot.rack: the track gives the focus too, in its column " + own.name};
     for (Column& theirs : other.columns_) columns_.push_back(std::move(theirs));
     first_ = std::min(first_, other.first_), last_ = std::max(last_, other.last_);
     return Done{};

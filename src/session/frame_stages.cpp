@@ -283,7 +283,8 @@ Status FrameStages::glare() {
 }
 
 Status FrameStages::codes() {
-    if (!making_->codes) return invalid("frame.codes needs control.codes, which says how they look");
+    if (!making_->codes)
+        return invalid("frame.codes needs control.codes, the colours and scale of the codes");
     if (const Status on = making_->start(Making::Stage::Codes, "codes"); !on) return on;
     return making_->guarded([&] { return making_->make_codes(); });
 }

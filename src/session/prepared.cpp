@@ -121,12 +121,12 @@ Status check_request(const FrameRequest& request) {
         return invalid("given points are drawn by job.engine sprites, not " + look.engine);
     if (request.view != ScatterView::Result && look.engine != "scatter")
         return invalid(
-            "layers, levels of detail, highlights and what is hidden are those of job.engine "
+            "layers, levels of detail, highlights and hidden surfaces exist only in job.engine "
             "scatter, not " +
             look.engine);
     if (request.view == ScatterView::Hidden && !(look.coc == CocControls{}))
         return invalid(
-            "hidden surfaces are written by their depth, which radii tell that are not changed by "
+            "the view of hidden surfaces needs the depth behind each radius, so it excludes "
             "focus.range_m, focus.near_scale, focus.far_scale or focus.max_radius_px");
     if (look.gaussian.along_ray && has_radii(rendered))
         return invalid("gaussian.depth_along ray counts metres; radii were given");

@@ -8,7 +8,7 @@ namespace petzval {
 
 Result<Rendered> rendered_of(const DefocusJob& job) {
     if (!job.depth_m.empty() && !job.coc_px.empty())
-        return Error{ErrorCode::InvalidArgument, "depth and radii are both given; one says what blurs"};
+        return Error{ErrorCode::InvalidArgument, "depth and radii are both given; give one of them"};
     Rendered rendered;
     rendered.place = job.place;
     rendered.camera = job.camera;

@@ -31,7 +31,7 @@ class Fields(CommandLineTest):
     def test_warnings_name_flags(self):
         self.succeed("scene", "make", "bars", "-o", "in.exr", "--layers", "hidden.exr", "--width", "64", "--height", "36", "-q")
         said = self.succeed("defocus", "in.exr", "-o", "out.exr", "--engine", "reference", "--pupil-points", "16").err
-        self.assertIn("hidden layers say it: --plate", said)
+        self.assertIn("supply it as --plate", said)
         said = self.succeed("defocus", "in.exr", "-o", "out.exr", "--engine", "gather", "--fill", "off", "--behind",
                             "hidden.exr").err
         self.assertIn("--fill has no effect", said)

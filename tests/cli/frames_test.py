@@ -1,4 +1,4 @@
-"""Shots: many frames by one command, what changes over them, what lacks, what fails, what was made before."""
+"""Shots: many frames by one command, what changes over them, missing frames, failures, frames made before."""
 import json
 import os
 import resource
@@ -224,7 +224,7 @@ class Shots(CommandLineTest):
         self.assertEqual([line.split()[0] for line in lines], ["frame", "1", "2", "3", "mean", "worst"])
         one = self.succeed("compare", "in.0002.exr", "out.0002.exr", "--json", "-").out
         self.assertAlmostEqual(json.loads(one)["psnr_lin"], float(lines[2].split()[1]), delta=0.006)
-        # Every frame with one truth, and one that lacks.
+        # Every frame with one truth, and one missing truth.
         self.succeed("compare", "in.0001.exr", "out.####.exr")
         self.refuse(3, "compare", "in.####.exr", "out.####.exr", "--frames", "1-4", says=["1 of 4 frames"])
         self.succeed("develop", "out.####.exr", "-o", "out.####.png")

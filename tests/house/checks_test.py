@@ -131,6 +131,9 @@ class Checks(unittest.TestCase):
         for text in ("// What lies behind.\n", "int a; // fine\n// Of the batch.\n", "// A line\n// that goes on.\n"):
             self.assert_found("check_prose.py", {"src/image/a.cpp": text}, "src/image/a.cpp:")
         self.assert_clean("check_prose.py", {"src/image/a.cpp": "// Radius in pixels.\nint what = 1;  // Of it\n"})
+        split = 'const char* text = "the blur goes "\n    "on";\n'
+        self.assert_found("check_prose.py", {"apps/cli/a.cpp": split}, "apps/cli/a.cpp:1: 'goes on'")
+        self.assert_clean("check_prose.py", {"apps/cli/a_test.cpp": split, "src/image/a.cpp": 'open("no such file");\n'})
 
     def test_a_count_of_findings_may_only_fall(self):
         source = {"src/image/a.cpp": "// What lies behind.\n\n// Of the batch.\n"}

@@ -1,4 +1,4 @@
-"""The door itself: what it says on a machine that lacks something, and what it leaves on stdout."""
+"""The door itself: what it prints on a machine where something is missing, and what it leaves on stdout."""
 import importlib.util
 import os
 import pathlib

@@ -133,7 +133,7 @@ class SceneTest(window.WindowTest):
         with open(os.path.join(self.shared, "square.txt"), "w") as file:
             file.write("wait\nexpect no error\nexpect notice missing.png\nsay frame.engine\nuntil notice changed\n"
                        "orbit 5 5\nwait\nexpect no error\nkey ctrl+r\nwait\nexpect error square.gltf\norbit 5 0\nwait\n"
-                       "expect no error\nexpect scene.samples 4\nsay frame.engine\nuntil notice gone\nreload\nwait\n"
+                       "expect no error\nexpect scene.samples 4\nsay frame.engine\nuntil notice removed\nreload\nwait\n"
                        "expect error square.gltf\n")
         window = self.start("square.gltf", "--engine", "gather", "--scene-size", "60x34", "--script", "square.txt")
         self.assertIn("gather", window.stdout.readline())

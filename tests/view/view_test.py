@@ -142,7 +142,7 @@ class ViewTest(window.WindowTest):
         path = os.path.join(self.shared, "fleeting.exr")
         shutil.copy(os.path.join(self.shared, "table.exr"), path)
         with open(os.path.join(self.shared, "fleeting.txt"), "w") as file:
-            file.write("wait\nsay frame.engine\nsleep 3\nexpect notice gone\nset fstop 1\nwait\nexpect no error\n"
+            file.write("wait\nsay frame.engine\nsleep 3\nexpect notice removed\nset fstop 1\nwait\nexpect no error\n"
                        "reload\nwait\nexpect error fleeting.exr\nexpect frame.engine gather\n")
         window = self.start("fleeting.exr", "--engine", "gather", "--script", "fleeting.txt")
         self.assertIn("gather", window.stdout.readline())

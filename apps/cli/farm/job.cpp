@@ -221,7 +221,7 @@ void add_job_verb(Verb& farm, Action& chosen, const char* name, const char* purp
     group.argument("JOB", "the folder that petzval farm write made", flags->folder);
     const bool collects = std::string(name) == "collect";
     if (collects)
-        group.on("--resubmit", "submit to Slurm again what is not complete, except wrong inputs",
+        group.on("--resubmit", "submit incomplete frames to Slurm again, except those with wrong inputs",
                  flags->resubmit);
     if (std::string(name) != "submit") flags->run.add_json_to(verb);
     flags->run.add_log_to(verb, false);

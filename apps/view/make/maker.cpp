@@ -491,7 +491,7 @@ void Maker::look_at_files() {
         file.time = time;
         const std::lock_guard lock(mutex_);
         news_.changed.push_back(file.path + (time ? ": has changed; Ctrl+R reads it again"
-                                                  : ": is gone; what was read of it is still shown"));
+                                                  : ": removed; the picture read from it is still shown"));
         news = true;
     }
     if (news) wake_();

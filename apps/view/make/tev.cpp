@@ -38,7 +38,7 @@ constexpr std::size_t kMostPictures = 16;
 constexpr std::size_t kTimesBrought = 16, kMostBytesAhead = std::size_t(512) << 20;
 
 Error nonsense(const std::string& why) {
-    return {ErrorCode::InvalidFile, "what was pushed is no picture: " + why};
+    return {ErrorCode::InvalidFile, "the pushed data is no picture: " + why};
 }
 
 std::string letter_of(const std::string& channel) {
@@ -307,7 +307,7 @@ void TevListener::serve(int connection) {
             if (!done) wrong_ = done.error().message;
         } catch (const std::bad_alloc&) {
             const std::lock_guard lock(mutex_);
-            wrong_ = "what was pushed does not fit the memory";
+            wrong_ = "the pushed picture does not fit in memory";
             done = nonsense("too large");
         }
         wake_();

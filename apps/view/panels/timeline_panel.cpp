@@ -34,9 +34,9 @@ void draw_buttons(App& app) {
         ImGui::TextColored({1, 0.86f, 0.35f, 1}, "focus %.4g m", *focus);
     }
     button(line.playing ? "stop" : "play", "toggle shot.playing",
-           "Shift-drag on the line below: what is played");
+           "Shift-drag on the line below: the range that is played");
     button(line.rack_clicks > 0 ? "stop rack" : "rack", "rack",
-           "two clicks on the picture: what is sharp in the first frame that is played, and in the last");
+           "click the subject in the first frame of the range, then the subject in the last");
     button("set key", "key_focus");
     button("remove key", "remove_key");
     flowing_switch(app, "click sets key", "shot.keying");

@@ -52,7 +52,7 @@ Status focus_by(App& app, const Words& words) {
     const auto steps = number_of(words[0]);
     const auto now = app.found_camera().focus_distance_m;
     if (!steps) return steps.error();
-    if (!now) return invalid("no focus yet; click on what is to be sharp");
+    if (!now) return invalid("no focus yet; click the subject");
     return set_field(app, "focus", text_of(now->value * std::pow(1.02, *steps)));
 }
 Status stop_by(App& app, const Words& words) {
@@ -214,7 +214,7 @@ Status save(App& app, const Words& words) {
     return app.error.empty() ? Status(Done{}) : Status(invalid(app.error));
 }
 Status copy(App& app, const Words&) {
-    if (app.shot() && app.shot()->is_pushed) return invalid("what was pushed is no file; save it first");
+    if (app.shot() && app.shot()->is_pushed) return invalid("a pushed picture has no file; save it first");
     app.copied = app.setup().command_line(app.full_choice(), "out.exr");
     if (app.is_live()) {
         std::string make;
@@ -313,8 +313,8 @@ int count_of(const std::string& arguments) {
 
 const std::vector<Command>& commands() {
     static const std::vector<Command> all{
-        {"focus", "X Y", "focus on what this pixel shows", focus},
-        {"pick", "X Y", "say what is at this pixel", pick},
+        {"focus", "X Y", "focus on the surface at this pixel", focus},
+        {"pick", "X Y", "print the values of this pixel", pick},
         {"focus_by", "STEPS", "focus farther by fiftieths, or nearer", focus_by},
         {"stop_by", "STEPS", "close the aperture by thirds of a stop, or open it", stop_by},
         {"set", "FIELD VALUE", "any field of camera, look and view, as lens.blades", set},
@@ -337,17 +337,17 @@ const std::vector<Command>& commands() {
         {"bend", "ZONE MM [NM]", "bend the lens's curves: focus of a zone of the pupil, + away from the lens",
          bend},
         {"save_curves", "FILE", "the curves that were bent, as a lens file", save_curves},
-        {"tev", "[PORT]", "what is made, to the viewer tev on this machine (default port 14158)", push},
+        {"tev", "[PORT]", "send the result to the viewer tev on this machine (default port 14158)", push},
         {"save_lens", "FILE", "the lens alone, as a look", save_lens},
         {"frame", "N|+1|-1|first|last", "another frame of the shot", frame},
-        {"range", "FIRST LAST", "what is played", range},
+        {"range", "FIRST LAST", "play these frames", range},
         {"key_focus", "", "this focus at this frame", key_focus},
         {"move_key", "FRAME TO METRES", "a key to another frame and distance", move_key},
         {"rack", "", "focus by two clicks: at the first frame that is played, and at the last", rack},
         {"remove_key", "", "of this frame", remove_key},
         {"save_track", "FILE", "the focus over the frames, as defocus --track takes it", save_track},
         {"load_track", "FILE", "what defocus --track takes", load_track},
-        {"orbit", "YAW PITCH", "turn the camera of a scene by degrees about what was in focus", orbit},
+        {"orbit", "YAW PITCH", "turn the camera of a scene by degrees about the focused point", orbit},
         {"dolly", "FACTOR", "its distance times this", dolly},
         {"home", "", "the scene's own camera", home},
         {"record", "FILE-####.exr", "sharp frames of a scene, with depth, for defocus; .png: as shown",

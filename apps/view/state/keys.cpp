@@ -37,7 +37,7 @@ const std::vector<Binding>& bindings() {
         {"a", "channel a", "alpha"},
         {"e", "exposure_by 0.5", "brighter by half a stop"},
         {"shift+e", "exposure_by -0.5", "darker"},
-        {"o", "toggle view.overlay", "what is in focus, near and far"},
+        {"o", "toggle view.overlay", "colour the near, focused and far zones"},
         {"w", "wipe toggle", "compare: drag the line"},
         {"l", "toggle view.lens", "the lens in section, its discs and curves"},
         {"enter", "toggle view.final", "final quality"},

@@ -24,7 +24,7 @@ Status rack_to(App& app, double focus_m) {
     if (is_first) line.keys.clear();
     line.keys[is_first ? line.first : line.last] = focus_m;
     app.go_to(is_first ? line.last : line.first);
-    app.notice = is_first ? "rack from " + text_of(focus_m, 4) + " m; click what is sharp in frame " +
+    app.notice = is_first ? "rack from " + text_of(focus_m, 4) + " m; click the subject in frame " +
                                 std::to_string(line.last)
                           : "rack to " + text_of(focus_m, 4) + " m; Space plays it";
     return Done{};
@@ -57,7 +57,7 @@ Status key_focus(App& app, const Words&) {
     Timeline& line = app.state.timeline;
     const auto focus = app.found_camera().focus_distance_m;
     if (!line.is_shot()) return no_shot();
-    if (!focus) return invalid("no focus yet; click on what is to be sharp");
+    if (!focus) return invalid("no focus yet; click the subject");
     line.keys[line.frame] = focus->value;
     return Done{};
 }
@@ -68,7 +68,7 @@ Status rack(App& app, const Words&) {
     line.rack_clicks = line.rack_clicks > 0 ? 0 : 2;
     if (line.rack_clicks == 0) return Done{};
     app.go_to(line.first);
-    app.notice = "rack: click what is sharp in frame " + std::to_string(line.first);
+    app.notice = "rack: click the subject in frame " + std::to_string(line.first);
     return Done{};
 }
 Status move_key(App& app, const Words& words) {

@@ -158,8 +158,7 @@ Result<Output> run_realtime(const EngineView& input, Spare) {
     output.stages = {
         {"realtime", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()}};
     if (input.lens.level(0).varies_over_field())
-        output.warnings.emplace_back(
-            "job.engine realtime draws the lens as it is in the middle of the frame");
+        output.warnings.emplace_back("job.engine realtime uses the lens of the frame's centre everywhere");
     return output;
 }
 

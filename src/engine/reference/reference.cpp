@@ -306,8 +306,8 @@ void say_what_is_not_known(const EngineView& input, Output& output) {
     if (empty == 0) return;
     const double percent = 100.0 * double(empty) / double(output.image.size());
     output.warnings.push_back(std::to_string(std::max(1, int(percent))) +
-                              " % of the picture see past near things to what they hide, which is not known "
-                              "and left empty; hidden layers say it: shot.behind");
+                              " % of the picture see hidden background, which is unknown and left empty; "
+                              "supply it as shot.behind");
 }
 
 }  // namespace

@@ -77,7 +77,7 @@ Result<std::vector<ChannelGroup>> of_wanted_layer(const std::string& path, const
 std::string reason(const ChannelGroup& g, const Part& part, const ReadOptions& options,
                    std::size_t candidates) {
     if (!options.layer.empty()) return "asked for with read.layer";
-    if (candidates == 1) return "the only colour there is";
+    if (candidates == 1) return "the file's only colour";
     switch (rank(g, part)) {
         case 0:
             return "the plain channels";

@@ -183,7 +183,7 @@ std::optional<DepthChoice> by_position(const Layout& layout, const ColourChoice*
             }
             if (!choice.is_position()) continue;
             choice.line = "depth: from world position " + printable(choice.position[0]) +
-                          " … and worldToCamera" + ": there is no depth channel";
+                          " … and worldToCamera" + ": the file has no depth channel";
             return choice;
         }
     }

@@ -154,7 +154,7 @@ Status check_deep(const ExrFile& exr, const Choices& choices, const ReadOptions&
             ErrorCode::InvalidArgument,
             printable(path, 4096) + ": is deep, its samples have their own depth; leave out read.depth_file"};
     if (!choices.depth || choices.depth->part != choices.colour.part)
-        return invalid_file(path, "is deep but its samples have no Z of their own");
+        return invalid_file(path, "is deep but its samples have no Z");
     std::vector<std::string> dropped;
     const ColourChoice& c = choices.colour;
     for (const Channel& channel : exr.layout.parts[c.part].channels)

@@ -90,7 +90,7 @@ Raster upright(Raster raster) {
     turn(raster.codes, stored, raster);
     turn(raster.floats, stored, raster);
     raster.orientation = 1;
-    add_note(raster.note, "turned upright, as its orientation says");
+    add_note(raster.note, "turned upright by its orientation tag");
     return raster;
 }
 

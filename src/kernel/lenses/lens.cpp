@@ -64,15 +64,16 @@ Status check_residuals(const LensChoice& choice) {
 // Checks for options that this kind of lens does not have.
 Status check_kind(const LensChoice& c, LensModelKind kind) {
     if (kind != LensModelKind::Prescription && c.lateral_colour != 1)
-        return refuse("lens.lateral_colour is a factor on what a lens traced from its surfaces has; \"" +
-                      c.name + "\" has none: lens.added_lateral_colour_percent adds some");
+        return refuse(
+            "lens.lateral_colour multiplies the lateral colour of a lens traced from its surfaces; \"" +
+            c.name + "\" has none: lens.added_lateral_colour_percent adds some");
     if (kind == LensModelKind::Prescription && (c.spherical != 1 || c.axial_colour != 1))
         return refuse(
-            "lens.spherical and lens.axial_colour are factors on what lenses drawn as curves have; \"" +
+            "lens.spherical and lens.axial_colour multiply the curves of a lens that is defined by curves; "
+            "\"" +
             c.name +
-            "\" is traced from its surfaces: lens.added_spherical_waves and lens.added_axial_colour_mm add "
-            "to "
-            "what it has");
+            "\" is traced from its surfaces: use lens.added_spherical_waves and "
+            "lens.added_axial_colour_mm");
     if (kind == LensModelKind::Prescription && c.distortion != 0)
         return refuse("lens.distortion shapes lenses drawn as curves (lens list); \"" + c.name +
                       "\" is traced from its surfaces");

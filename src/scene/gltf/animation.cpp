@@ -90,7 +90,7 @@ Result<Track> track_of(const tinygltf::Model& model, const tinygltf::AnimationSa
     for (std::size_t i = 0; i < times->count; ++i) {
         const double before = i > 0 ? track.time(i - 1) : -1;
         if (!(track.time(i) > before && track.time(i) <= kLongest_s))
-            return broken("an animation whose times do not ascend, or that takes more than an hour");
+            return broken("an animation with times that do not ascend, or longer than an hour");
     }
     return track;
 }

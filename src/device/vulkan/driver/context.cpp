@@ -10,7 +10,7 @@ namespace petzval::device::vulkan {
 Result<std::shared_ptr<Context>> Context::open(std::shared_ptr<Instance> instance, std::size_t number) {
     const Candidate& candidate = instance->candidates()[number];
     if (!candidate.lacks.empty())
-        return Error{ErrorCode::Unsupported, candidate.name + " lacks " + candidate.lacks};
+        return Error{ErrorCode::Unsupported, candidate.name + " does not have " + candidate.lacks};
     std::shared_ptr<Context> context(new Context(std::move(instance), candidate));
     if (const Status created = context->create(number); !created) return created.error();
     return context;
