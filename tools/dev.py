@@ -293,9 +293,11 @@ def packages_test(*words):
 
 
 def site(*words):
-    """[--no-gallery]: static pages of docs/ with a gallery of every lens, in build/site"""
+    """[--no-gallery] [--test]: static pages of docs/ with a gallery of every lens, in build/site; tested in Chromium"""
     make("release", "petzval_cli")
-    run(sys.executable, "tools/site_pages.py", program(), *words)
+    run(sys.executable, "tools/site_pages.py", program(), *(word for word in words if word != "--test"))
+    if "--test" in words:
+        run("/usr/bin/python3", "tests/site/site_test.py", "build/site")  # Debian's: selenium is its package
 
 
 VERBS = {"demo": demo, "build": build, "test": test, "path": path, "run": run_program, "bench": bench,

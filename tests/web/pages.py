@@ -14,28 +14,16 @@ import threading
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tests/cli"), str(ROOT / "tools")]
+sys.path[:0] = [str(ROOT / "tests/cli"), str(ROOT / "tests/browser"), str(ROOT / "tools")]
+from chromium import browser  # noqa: E402
 from web import SITE, server_of  # noqa: E402
 
-from selenium import webdriver  # noqa: E402
-from selenium.webdriver.chrome.service import Service  # noqa: E402
 from selenium.webdriver.common.action_chains import ActionChains  # noqa: E402
 from selenium.webdriver.common.by import By  # noqa: E402
 from selenium.webdriver.support.ui import WebDriverWait  # noqa: E402
 
 PETZVAL = sys.argv.pop(1)
 SECONDS = 120
-
-
-def browser(*flags):
-    options = webdriver.ChromeOptions()
-    options.binary_location = "/usr/bin/chromium"
-    for flag in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--enable-unsafe-swiftshader", *flags):
-        options.add_argument(flag)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-    made = webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
-    made.set_script_timeout(SECONDS)
-    return made
 
 
 class Page(unittest.TestCase):
@@ -47,6 +35,7 @@ class Page(unittest.TestCase):
         threading.Thread(target=cls.server.serve_forever, daemon=True).start()
         cls.origin = f"http://127.0.0.1:{cls.server.server_port}"
         cls.browser = browser(*cls.flags)
+        cls.browser.set_script_timeout(SECONDS)
 
     @classmethod
     def tearDownClass(cls):
