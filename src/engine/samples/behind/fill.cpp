@@ -1,4 +1,5 @@
 #include "base/parallel.h"
+#include "engine/samples/behind/search.h"
 #include "engine/samples/completion_model.h"
 #include "engine/samples/hidden.h"
 #include "engine/samples/known_surfaces.h"
@@ -13,37 +14,14 @@
 namespace petzval::engine {
 namespace {
 
-constexpr int kDirections = 16;  // even: opposite directions are paired
+constexpr std::size_t kSurfaces = HiddenLayers::kMost;
 
 float square(Rgba c) { return c.r * c.r + c.g * c.g + c.b * c.b; }
 
-// The end of a search: a pixel of the surface that was met.
-constexpr int kHits = 2;  // per direction
-constexpr int kSurfaces = HiddenLayers::kMost;
-struct Found {
-    bool found = false;
-    int x = 0, y = 0;
-    float coc_px = 0, distance_px = 0;
-    KnownSurfaces::Place place() const { return {x, y, coc_px}; }
-};
-// A few pixels around it, as seen coming from the hidden pixel: itself, one to either side, two beyond.
+// A few pixels around the end of a search, as seen coming from the hidden pixel: itself, one to either side,
+// two beyond.
 constexpr int kPatch = 5;
 using Patch = std::array<Rgba, kPatch>;
-
-constexpr int kBlock = 4;  // pixels on a side share one distance to the nearest silhouette
-
-using Hits = std::array<std::array<Found, kHits>, kDirections>;
-
-struct Step {
-    float t;  // distance, px
-    int x, y;
-    std::ptrdiff_t offset;  // in the plane of clean radii
-};
-struct Path {
-    Direction direction;
-    std::vector<Step> steps;
-    std::vector<std::size_t> at_distance;  // the first step at least so many pixels away
-};
 
 // Weighted votes on the colour of a hidden surface.
 class Votes {
@@ -87,134 +65,36 @@ public:
           coc_(coc),
           connected_(connected),
           mixtures_(mixtures),
-          farthest_(farthest),
-          largest_(largest),
+          search_(known_, coc, mixtures, largest, farthest, workers),
           every_(std::size_t(kDirections / rule.directions)),
-          every_blurred_(std::size_t(kDirections / rule.blurred_directions)) {
-        measure_distances(workers);
-        lay_paths();
-    }
+          every_blurred_(std::size_t(kDirections / rule.blurred_directions)) {}
 
-    // True if a lens ray can pass the occluder and reach the surface behind (x, y).
-    bool may_hide(int x, int y) const {
-        return beyond_(x / kBlock, y / kBlock) <= std::abs(coc_(x, y)) + completion_model.past_edge_px;
-    }
-    // Appends what lies behind (x, y), if any surface nearby does.
+    bool may_hide(int x, int y) const { return search_.may_hide(x, y); }
+
+    // Appends the surfaces behind (x, y), if a lens ray that passes the occluder reaches any of them.
     void fill(int x, int y, std::vector<Hidden>& hidden) const {
         const Mixture* m = mixtures_.at(x, y);
         const float own = m ? m->near_coc_px : coc_(x, y);
         Hits hits;
-        bool any = false;
-        const Slope slope = slope_at(coc_, connected_, x, y);
-        bool sharp = false;
+        const bool outlined = outlines_.near({x, y});
+        const SurfaceSearch::Start start{x, y, own, slope_at(coc_, connected_, x, y),
+                                         outlined ? completion_model.outline_search_px : 0};
+        bool reached = false, sharp = false;
         const auto look = [&](std::size_t k) {
-            hits[k] = search(x, y, own, slope, paths_[k]);
-            any = any || hits[k][0].found;
-            for (const Found& f : hits[k])
+            hits[k] = search_.look(start, k);
+            for (const Found& f : hits[k]) {
+                reached = reached || (f.found && f.distance_px <= SurfaceSearch::reach_px(own, f.coc_px));
                 sharp = sharp || (f.found && std::abs(f.coc_px) < completion_model.texture_sharp_px);
+            }
         };
         for (std::size_t k = 0; k < kDirections; k += every_blurred_) look(k);
-        if (sharp || !any)
+        if (sharp || !reached)
             for (std::size_t k = 0; k < kDirections; k += every_)
                 if (k % every_blurred_ != 0) look(k);
-        if (any) stack(x, y, hits, hidden);
+        if (reached) stack(x, y, own, hits, hidden);
     }
 
 private:
-    // Per block of pixels: the smallest distance to a silhouette of a surface in the block, less the blur of
-    // the surface behind it. A two-sweep chamfer transform (G. Borgefors, "Distance transformations in
-    // digital images", 1986) that does not enter surfaces as far as the surface that it carries. Pixels
-    // beyond their own blur need no search.
-    void measure_distances(Workers& workers) {
-        const int width = (coc_.width() + kBlock - 1) / kBlock,
-                  height = (coc_.height() + kBlock - 1) / kBlock;
-        beyond_ = Plane(width, height, 1e9f);
-        blocks_ = Image<Block>(width, height);
-        Plane far(width, height, -1e30f), nearest(width, height, 1e30f);
-        parallel_for(height, workers, [&](int by) {
-            for (int y = by * kBlock; y < std::min((by + 1) * kBlock, coc_.height()); ++y)
-                for (int x = 0; x < coc_.width(); ++x) {
-                    const int bx = x / kBlock;
-                    nearest(bx, by) = std::min(nearest(bx, by), coc_(x, y));
-                    Block& block = blocks_(bx, by);
-                    block.farthest = std::max(block.farthest, known_.radii()(x, y));
-                    const Mixture* m = mixtures_.at(x, y);
-                    if (!m) continue;
-                    block.free = -kBlock;
-                    if (m->far_coc_px > far(bx, by))
-                        beyond_(bx, by) = -std::abs(m->far_coc_px) - 2 * kBlock, far(bx, by) = m->far_coc_px;
-                }
-        });
-        constexpr float kSide = 0.955f * kBlock, kDiagonal = 1.3693f * kBlock;
-        const auto relax = [&](int x, int y, int dx, int dy) {
-            if (x + dx < 0 || x + dx >= width || y + dy < 0 || y + dy >= height) return;
-            blocks_(x, y).free = std::min(blocks_(x, y).free, blocks_(x + dx, y + dy).free + kBlock);
-            const float reached = beyond_(x + dx, y + dy) + (dx != 0 && dy != 0 ? kDiagonal : kSide);
-            if (reached >= beyond_(x, y) || far(x + dx, y + dy) <= nearest(x, y) + completion_model.step_px)
-                return;
-            beyond_(x, y) = reached, far(x, y) = far(x + dx, y + dy);
-        };
-        for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x)
-                relax(x, y, -1, 0), relax(x, y, -1, -1), relax(x, y, 0, -1), relax(x, y, 1, -1);
-        for (int y = height - 1; y >= 0; --y)
-            for (int x = width - 1; x >= 0; --x)
-                relax(x, y, 1, 0), relax(x, y, 1, 1), relax(x, y, 0, 1), relax(x, y, -1, 1);
-    }
-
-    // Pixels visited in each direction: every pixel at first, every eighth of the way further out.
-    void lay_paths() {
-        const float longest = largest_ + std::abs(farthest_) + completion_model.past_edge_px;
-        for (int k = 0; k < kDirections; ++k) {
-            const double angle = 2 * M_PI * k / kDirections;
-            Path& path = paths_[std::size_t(k)];
-            path.direction = {float(std::cos(angle)), float(std::sin(angle))};
-            for (float t = 1; t <= longest; t += std::max(1.0f, t / 8)) {
-                const int dx = nearest_pixel(t * path.direction.x), dy = nearest_pixel(t * path.direction.y);
-                path.steps.push_back({t, dx, dy, std::ptrdiff_t(dy) * coc_.width() + dx});
-            }
-            for (std::size_t i = 0; i < path.steps.size(); ++i)
-                while (float(path.at_distance.size()) <= path.steps[i].t) path.at_distance.push_back(i);
-        }
-    }
-
-    // The first clean pixel of a farther surface, walking from (x, y), and of one farther still.
-    std::array<Found, kHits> search(int x, int y, float own, Slope slope, const Path& path) const {
-        const float own_per_px = std::max(0.0f, slope.x * path.direction.x + slope.y * path.direction.y);
-        float longest = std::abs(own) + std::abs(farthest_) + completion_model.past_edge_px;
-        const float* const start = &known_.radii()(x, y);
-        std::array<Found, kHits> hits;
-        std::size_t n = 0;
-        float behind = own + completion_model.step_px;
-        const unsigned width = unsigned(coc_.width()), height = unsigned(coc_.height());
-        const Step *step = path.steps.data(), *const end = step + path.steps.size();
-        while (step != end && step->t <= longest) {
-            const unsigned u = unsigned(x + step->x), v = unsigned(y + step->y);
-            if (u >= width || v >= height) break;
-            const Block& block = blocks_(int(u / unsigned(kBlock)), int(v / unsigned(kBlock)));
-            // (Of a block all of which lies in front, no pixel is looked at: their plane fills no cache.)
-            const float c = block.farthest > behind ? start[step->offset] : behind;
-            if (c > behind && c > own + step->t * own_per_px + completion_model.step_px) {
-                if (step->t <= std::abs(own) + std::abs(c) + completion_model.past_edge_px) {
-                    hits[n++] = {true, int(u), int(v), c, step->t};
-                    longest = std::min(
-                        longest, completion_model.search_factor * step->t + completion_model.search_more_px);
-                }
-                behind = c + 2 * completion_model.step_px;
-                if (n == kHits || behind >= farthest_) break;
-            }
-            // No other surface comes before the next silhouette.
-            if (block.free <= 1) {
-                ++step;
-                continue;
-            }
-            const std::size_t distance = std::size_t(step->t) + std::size_t(block.free);
-            if (distance >= path.at_distance.size()) break;
-            step = std::max(step + 1, path.steps.data() + path.at_distance[distance]);
-        }
-        return hits;
-    }
-
     Patch patch_at(const Found& hit, Direction d) const {
         const float near = completion_model.patch_near_px, far = completion_model.patch_far_px;
         const int x = hit.x, y = hit.y;
@@ -271,11 +151,11 @@ private:
     // The surfaces met, nearest first. The farthest fills the rest; a nearer one takes the share that it has
     // of the surroundings, so a wire behind a leaf continues as a wire. Where its outline continues hidden,
     // it takes all on its side.
-    void stack(int x, int y, Hits& hits, std::vector<Hidden>& hidden) const {
+    void stack(int x, int y, float own_px, Hits& hits, std::vector<Hidden>& hidden) const {
         float all_behind = 0, unhidden_behind = 0;
-        std::array<Hidden, kSurfaces> surfaces{};
-        int n = 0;
-        for (; n < kSurfaces; ++n) {
+        std::array<Hidden, kSurfaces + 1> surfaces;
+        std::size_t n = 0;
+        for (bool first = true;; first = false) {
             // The farthest that is left, and all that belongs to it.
             float farthest = -1e30f;
             for (const auto& direction : hits)
@@ -283,15 +163,34 @@ private:
                     if (f.found) farthest = std::max(farthest, f.coc_px);
             if (farthest < -1e29f) break;
             Met met;
-            surfaces[std::size_t(n)] = surface(x, y, hits, farthest, met);
+            Hidden next = surface(x, y, own_px, hits, farthest, met);
             const float inside = met.within / met.all;
             const float behind = all_behind + inside * (unhidden_behind - all_behind);
-            const float share = n == 0 ? 1 : sharpened(met.within / (met.within + behind + 1e-9f));
+            next.share = first ? 1 : sharpened(met.within / (met.within + behind + 1e-9f));
             all_behind += met.within, unhidden_behind += met.unhidden * inside;
-            surfaces[std::size_t(n)].share = share;
-            surfaces[std::size_t(n)].colour *= share;
+            surfaces[n++] = next;
+            if (n > kSurfaces) drop_least(surfaces), --n;
         }
-        for (int i = n - 1; i >= 0; --i) hidden.push_back(surfaces[std::size_t(i)]);
+        while (n > 0) {
+            Hidden& nearest = surfaces[--n];
+            nearest.colour *= nearest.share;
+            hidden.push_back(nearest);
+        }
+    }
+
+    // Removes the surface, of those ordered from the farthest to the nearest, that shows least of itself. The
+    // farthest that stays fills the rest.
+    static void drop_least(std::span<Hidden> surfaces) {
+        float open = 1, least = 2;
+        std::size_t dropped = 0;
+        for (std::size_t i = surfaces.size(); i-- > 0;) {
+            const float shows = open * surfaces[i].share;
+            if (shows < least) least = shows, dropped = i;
+            open *= 1 - surfaces[i].share;
+        }
+        std::copy(surfaces.begin() + std::ptrdiff_t(dropped) + 1, surfaces.end(),
+                  surfaces.begin() + std::ptrdiff_t(dropped));
+        surfaces[0].share = 1;
     }
 
     // Radius of the nearest hit on the surface whose farthest hit is at farthest_px. A sloping floor is hit
@@ -309,7 +208,7 @@ private:
     }
 
     // The estimate of the surface behind (x, y) whose farthest hit is at `coc_px`. Its hits are used up.
-    Hidden surface(int x, int y, Hits& hits, float coc_px, Met& met) const {
+    Hidden surface(int x, int y, float own_px, Hits& hits, float coc_px, Met& met) const {
         Votes votes;
         HiddenTextures::Point hidden(textures_, x, y);
         const float nearest_px = nearest_of_surface(hits, coc_px);
@@ -317,6 +216,9 @@ private:
             for (const Found& f : hits[k])
                 if (f.found && f.coc_px >= nearest_px) return &f;
             return nullptr;
+        };
+        const auto reached = [&](const Found* f) {
+            return f && f->distance_px <= SurfaceSearch::reach_px(own_px, f->coc_px);
         };
         const auto passes = [&](const Found* f) { return f ? known_.passes(f->place(), x, y) : 0; };
         const auto meet = [&](const Found& f, float weight) {
@@ -331,9 +233,10 @@ private:
         constexpr std::size_t kPairs = kDirections / 2;
         for (std::size_t k = 0; k < kPairs; ++k) {
             const Found *a = take(k), *b = take(k + kPairs);
-            // A surface seen on both sides most likely continues between them, unless an edge cuts one side
-            // off.
-            const float weight = a && b ? completion_model.share_pair : completion_model.share_alone;
+            // A surface seen on both sides within reach most likely continues between them, unless an edge
+            // cuts one side off.
+            const CompletionModel& model = completion_model;
+            const float weight = reached(a) && reached(b) ? model.share_pair : model.share_alone;
             if (a) meet(*a, weight);
             if (b) meet(*b, weight);
             const float from_a = passes(a), from_b = passes(b), both = from_a * from_b;
@@ -350,7 +253,7 @@ private:
                   Votes& votes) const {
         const float total = a.distance_px + b.distance_px;
         const float wa = b.distance_px / total, wb = a.distance_px / total;
-        const float alike = likeness(a, paths_[k].direction, b, paths_[k + kDirections / 2].direction);
+        const float alike = likeness(a, search_.direction(k), b, search_.direction(k + kDirections / 2));
         const float closeness = 1 / a.distance_px + 1 / b.distance_px;
         const auto colour = [&](const Found& f) {
             return hidden.going_on(f.place(), known_.colour(f.x, f.y));
@@ -362,7 +265,7 @@ private:
     void add_alone(HiddenTextures::Point& hidden, const Found& one, std::size_t k, float nearest_px,
                    float weight, Votes& votes) const {
         const float away = one.distance_px * one.distance_px;
-        const Rgba colour = known_.going_on(one.place(), paths_[k].direction, one.distance_px);
+        const Rgba colour = known_.going_on(one.place(), search_.direction(k), one.distance_px);
         votes.add(hidden.going_on(one.place(), colour), one.coc_px,
                   weight * (completion_model.alone_weight * nearest_px / (away * one.distance_px)));
     }
@@ -373,14 +276,7 @@ private:
     View<const float> coc_;
     View<const unsigned char> connected_;
     const Mixtures& mixtures_;
-    Plane beyond_;  // see measure_distances
-    struct Block {
-        float farthest = -1e30f;  // known radius in it
-        int free = 1 << 20;       // pixels one can go from anywhere in it without meeting a silhouette
-    };
-    Image<Block> blocks_;
-    std::array<Path, kDirections> paths_;
-    float farthest_, largest_;  // of the frame: radius farthest behind, largest |radius|
+    SurfaceSearch search_;
     // Every how many directions are searched; the second number applies where no sharp surface is met.
     std::size_t every_, every_blurred_;
 };

@@ -264,6 +264,16 @@ void HiddenOutlines::sort_into_cells(int width, int height) {
     }
 }
 
+bool HiddenOutlines::near(PixelAt hidden) const {
+    if (outlines_.empty()) return false;
+    for (const int i : near_[std::size_t(hidden.y / kCell * columns_ + hidden.x / kCell)]) {
+        const Outline& o = outlines_[std::size_t(i)];
+        if (std::max(std::abs(hidden.x - o.middle.x), std::abs(hidden.y - o.middle.y)) <= o.around_px)
+            return true;
+    }
+    return false;
+}
+
 HiddenOutlines::Open HiddenOutlines::open(PixelAt shown, PixelAt hidden, float coc_px) const {
     const CompletionModel& model = completion_model;
     Open open;

@@ -32,6 +32,9 @@ public:
     };
     Open open(PixelAt shown, PixelAt hidden, float coc_px) const;
 
+    // True if an outline may be hidden near that point.
+    bool near(PixelAt hidden) const;
+
     struct Outline {
         PixelAt at;  // places count from this corner of pixels: that of (x, y) that is nearest to (0, 0)
         Arc arc;

@@ -1,0 +1,118 @@
+#include "engine/samples/behind/search.h"
+
+#include "base/parallel.h"
+#include "engine/samples/completion_model.h"
+#include "engine/samples/nearest_pixel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace petzval::engine {
+
+SurfaceSearch::SurfaceSearch(const KnownSurfaces& known, View<const float> coc, const Mixtures& mixtures,
+                             float largest_px, float farthest_px, Workers& workers)
+    : known_(known), coc_(coc), farthest_(farthest_px) {
+    measure_distances(mixtures, workers);
+    lay_paths(std::max(reach_px(largest_px, farthest_px), completion_model.outline_search_px));
+}
+
+bool SurfaceSearch::may_hide(int x, int y) const {
+    return beyond_(x / kBlock, y / kBlock) <= std::abs(coc_(x, y)) + completion_model.past_edge_px;
+}
+
+float SurfaceSearch::reach_px(float own_px, float behind_px) {
+    return std::abs(own_px) + std::abs(behind_px) + completion_model.past_edge_px;
+}
+
+// Per block of pixels: the smallest distance to a silhouette of a surface in the block, less the blur of
+// the surface behind it. A two-sweep chamfer transform (G. Borgefors, "Distance transformations in
+// digital images", 1986) that does not enter surfaces as far as the surface that it carries. Pixels
+// beyond their own blur need no search.
+void SurfaceSearch::measure_distances(const Mixtures& mixtures, Workers& workers) {
+    const int width = (coc_.width() + kBlock - 1) / kBlock, height = (coc_.height() + kBlock - 1) / kBlock;
+    beyond_ = Plane(width, height, 1e9f);
+    blocks_ = Image<Block>(width, height);
+    Plane far(width, height, -1e30f), nearest(width, height, 1e30f);
+    parallel_for(height, workers, [&](int by) {
+        for (int y = by * kBlock; y < std::min((by + 1) * kBlock, coc_.height()); ++y)
+            for (int x = 0; x < coc_.width(); ++x) {
+                const int bx = x / kBlock;
+                nearest(bx, by) = std::min(nearest(bx, by), coc_(x, y));
+                Block& block = blocks_(bx, by);
+                block.farthest = std::max(block.farthest, known_.radii()(x, y));
+                const Mixture* m = mixtures.at(x, y);
+                if (!m) continue;
+                block.free = -kBlock;
+                if (m->far_coc_px > far(bx, by))
+                    beyond_(bx, by) = -std::abs(m->far_coc_px) - 2 * kBlock, far(bx, by) = m->far_coc_px;
+            }
+    });
+    constexpr float kSide = 0.955f * kBlock, kDiagonal = 1.3693f * kBlock;
+    const auto relax = [&](int x, int y, int dx, int dy) {
+        if (x + dx < 0 || x + dx >= width || y + dy < 0 || y + dy >= height) return;
+        blocks_(x, y).free = std::min(blocks_(x, y).free, blocks_(x + dx, y + dy).free + kBlock);
+        const float reached = beyond_(x + dx, y + dy) + (dx != 0 && dy != 0 ? kDiagonal : kSide);
+        if (reached >= beyond_(x, y) || far(x + dx, y + dy) <= nearest(x, y) + completion_model.step_px)
+            return;
+        beyond_(x, y) = reached, far(x, y) = far(x + dx, y + dy);
+    };
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            relax(x, y, -1, 0), relax(x, y, -1, -1), relax(x, y, 0, -1), relax(x, y, 1, -1);
+    for (int y = height - 1; y >= 0; --y)
+        for (int x = width - 1; x >= 0; --x)
+            relax(x, y, 1, 0), relax(x, y, 1, 1), relax(x, y, 0, 1), relax(x, y, -1, 1);
+}
+
+// Pixels visited in each direction: every pixel at first, every eighth of the way further out.
+void SurfaceSearch::lay_paths(float longest_px) {
+    for (int k = 0; k < kDirections; ++k) {
+        const double angle = 2 * M_PI * k / kDirections;
+        Path& path = paths_[std::size_t(k)];
+        path.direction = {float(std::cos(angle)), float(std::sin(angle))};
+        for (float t = 1; t <= longest_px; t += std::max(1.0f, t / 8)) {
+            const int dx = nearest_pixel(t * path.direction.x), dy = nearest_pixel(t * path.direction.y);
+            path.steps.push_back({t, dx, dy, std::ptrdiff_t(dy) * coc_.width() + dx});
+        }
+        for (std::size_t i = 0; i < path.steps.size(); ++i)
+            while (float(path.at_distance.size()) <= path.steps[i].t) path.at_distance.push_back(i);
+    }
+}
+
+std::array<Found, kHits> SurfaceSearch::look(const Start& from, std::size_t k) const {
+    const Path& path = paths_[k];
+    const auto [x, y, own, slope, at_least_px] = from;
+    const float own_per_px = std::max(0.0f, slope.x * path.direction.x + slope.y * path.direction.y);
+    float longest = std::max(reach_px(own, farthest_), at_least_px);
+    const float* const start = &known_.radii()(x, y);
+    std::array<Found, kHits> hits;
+    std::size_t n = 0;
+    float behind = own + completion_model.step_px;
+    const unsigned width = unsigned(coc_.width()), height = unsigned(coc_.height());
+    const Step *step = path.steps.data(), *const end = step + path.steps.size();
+    while (step != end && step->t <= longest) {
+        const unsigned u = unsigned(x + step->x), v = unsigned(y + step->y);
+        if (u >= width || v >= height) break;
+        const Block& block = blocks_(int(u / unsigned(kBlock)), int(v / unsigned(kBlock)));
+        // (Of a block all of which lies in front, no pixel is looked at: their plane fills no cache.)
+        const float c = block.farthest > behind ? start[step->offset] : behind;
+        if (c > behind && c > own + step->t * own_per_px + completion_model.step_px) {
+            hits[n++] = {true, int(u), int(v), c, step->t};
+            longest =
+                std::min(longest, completion_model.search_factor * step->t + completion_model.search_more_px);
+            behind = c + 2 * completion_model.step_px;
+            if (n == kHits || behind >= farthest_) break;
+        }
+        // No other surface comes before the next silhouette.
+        if (block.free <= 1) {
+            ++step;
+            continue;
+        }
+        const std::size_t distance = std::size_t(step->t) + std::size_t(block.free);
+        if (distance >= path.at_distance.size()) break;
+        step = std::max(step + 1, path.steps.data() + path.at_distance[distance]);
+    }
+    return hits;
+}
+
+}  // namespace petzval::engine

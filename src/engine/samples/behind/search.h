@@ -1,0 +1,76 @@
+// Walks from hidden pixels to the visible surfaces around them.
+#pragma once
+
+#include "engine/samples/connectivity.h"
+#include "engine/samples/hidden.h"
+#include "engine/samples/known_surfaces.h"
+
+#include <array>
+#include <vector>
+
+namespace petzval::engine {
+
+constexpr int kDirections = 16;  // even: opposite directions are paired
+
+// The end of a search: a pixel of the surface that was met.
+constexpr int kHits = 2;  // per direction
+struct Found {
+    bool found = false;
+    int x = 0, y = 0;
+    float coc_px = 0, distance_px = 0;
+    KnownSurfaces::Place place() const { return {x, y, coc_px}; }
+};
+using Hits = std::array<std::array<Found, kHits>, kDirections>;
+
+class SurfaceSearch {
+public:
+    // Borrows all but the last. largest_px, farthest_px: of the frame, largest |radius| and radius farthest
+    // behind.
+    SurfaceSearch(const KnownSurfaces& known, View<const float> coc_px, const Mixtures& mixtures,
+                  float largest_px, float farthest_px, Workers& workers);
+
+    // True if a lens ray can pass the occluder and reach the surface behind (x, y).
+    bool may_hide(int x, int y) const;
+    // Largest distance from a pixel at which a ray past its surface reaches the surface behind it.
+    static float reach_px(float own_px, float behind_px);
+
+    // A pixel whose hidden surfaces are looked for, at least up to at_least_px away.
+    struct Start {
+        int x, y;
+        float own_px;
+        Slope slope;
+        float at_least_px;
+    };
+    // The first clean pixel of a farther surface in the direction k, and of one farther still. Both may lie
+    // beyond the reach of the blur: a ray that passes another edge of the occluder reaches the surface there.
+    std::array<Found, kHits> look(const Start& from, std::size_t k) const;
+    Direction direction(std::size_t k) const { return paths_[k].direction; }
+
+private:
+    static constexpr int kBlock = 4;  // pixels on a side share one distance to the nearest silhouette
+    struct Step {
+        float t;  // distance, px
+        int x, y;
+        std::ptrdiff_t offset;  // in the plane of clean radii
+    };
+    struct Path {
+        Direction direction;
+        std::vector<Step> steps;
+        std::vector<std::size_t> at_distance;  // the first step at least so many pixels away
+    };
+    struct Block {
+        float farthest = -1e30f;  // known radius in it
+        int free = 1 << 20;       // pixels one can go from anywhere in it without meeting a silhouette
+    };
+    void measure_distances(const Mixtures& mixtures, Workers& workers);
+    void lay_paths(float longest_px);
+
+    const KnownSurfaces& known_;
+    View<const float> coc_;
+    Plane beyond_;  // see measure_distances
+    Image<Block> blocks_;
+    std::array<Path, kDirections> paths_;
+    float farthest_;
+};
+
+}  // namespace petzval::engine

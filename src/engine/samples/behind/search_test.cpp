@@ -1,0 +1,46 @@
+// A box before a floor, and a slanted bar in front that hides a part of the box's upright edge.
+#include "base/parallel.h"
+#include "engine/samples/hidden.h"
+
+#include <gtest/gtest.h>
+
+namespace petzval::engine {
+namespace {
+
+constexpr int kWidth = 128, kHeight = 128, kBox = 64, kBarWidth = 24;
+constexpr float kBarPx = -4, kBoxPx = 0, kFloorPx = 6;
+const Rgba kBoxColour{0.6f, 0.6f, 0.6f, 1}, kFloorColour{0.1f, 0.1f, 0.1f, 1};
+
+int bar_begins(int y) { return kBox + 4 - (y - 40) / 2; }
+bool in_bar(int x, int y) { return x >= bar_begins(y) && x < bar_begins(y) + kBarWidth; }
+
+HiddenLayers filled(const Plane& coc, const Picture& colour) {
+    const LitPicture picture{colour, {}};
+    const auto connected = connections(coc, one_thread());
+    const Mixtures mixed = unmix_silhouettes(picture, coc, connected, one_thread());
+    return fill_hidden(picture, coc, connected, mixed, kBarPx, kFloorPx, {}, one_thread());
+}
+
+TEST(SurfaceSearch, ASurfaceIsFoundAcrossABarThatIsWiderThanTheBlur) {
+    Picture colour(kWidth, kHeight, kFloorColour);
+    Plane coc(kWidth, kHeight, kFloorPx);
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+            if (x < kBox) colour(x, y) = kBoxColour, coc(x, y) = kBoxPx;
+            if (in_bar(x, y)) colour(x, y) = {0.05f, 0.05f, 0.05f, 1}, coc(x, y) = kBarPx;
+        }
+    const HiddenLayers hidden = filled(coc, colour);
+    // Five pixels before the bar's right edge rays pass the bar; its left edge is 19 px away.
+    for (int y = 60; y < 96; ++y) {
+        const int x = bar_begins(y) + kBarWidth - 5;
+        if (std::abs(x - kBox) < 2) continue;
+        Rgba behind;
+        float open = 1;
+        for (const Hidden& h : hidden.at(x, y)) behind += open * h.colour, open *= 1 - h.share;
+        EXPECT_NEAR(behind.g, (x < kBox ? kBoxColour : kFloorColour).g, 0.03f) << x << ", " << y;
+    }
+    EXPECT_LT(bar_begins(95) + kBarWidth - 5, kBox - 2) << "some of them show the box";
+}
+
+}  // namespace
+}  // namespace petzval::engine
