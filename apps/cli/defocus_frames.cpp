@@ -42,11 +42,11 @@ void TrackFlags::add_to(Verb& verb) {
                "values over the frames: a CSV or JSON file with the columns frame, focus (m) or focus_x, "
                "focus_y (pixels), fstop, focal_length (mm), and look fields such as lens.blades",
                file)
-        .values(
-            "--rack", "FRAME:X,Y",
-            "a focus pull: at each key a pixel that is sharp, as 1001:80,45, or a distance, as 1024:3.2m; "
-            "between keys the focus moves evenly in dioptres",
-            rack)
+        .values("--rack", "FRAME:X,Y",
+                "a focus pull: at each key a pixel that is sharp, such as 1001:80,45, or a distance, such as "
+                "1024:3.2m; "
+                "between keys the focus moves evenly in dioptres",
+                rack)
         .value("--focus-speed", "DIOPTRES", "limit the focus change of a track, in dioptres per frame",
                parse_positive, focus_speed)
         .value("--temporal", "N",

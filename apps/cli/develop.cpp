@@ -163,7 +163,7 @@ void check(DevelopVerbFlags& flags, const Verb& verb) {
     flags.look.settle();
     if (flags.look.given({"Glare"}).empty() && (flags.camera.any() || !flags.look.given({"Lens"}).empty()))
         throw UsageError(
-            "camera and lens are for glare, as --star 0.1 --blades 6; without it they have no "
+            "camera and lens are for glare, as in --star 0.1 --blades 6; without it they have no "
             "effect");
     const auto kind = kind_of_output(flags.output);
     if (!kind || *kind != FileKind::Png)

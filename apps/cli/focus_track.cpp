@@ -39,7 +39,7 @@ FocusPick parse_pick(const std::string& text) {
     if (!pixel) throw wrong(pixel.error().message);
     if (colon == std::string::npos) return {0, *pixel};
     const auto frame = parse_frames(text.substr(0, colon));
-    if (!frame || frame->size() != 1) throw wrong("not FRAME:X,Y, as 1001:960,540");
+    if (!frame || frame->size() != 1) throw wrong("not FRAME:X,Y, such as 1001:960,540");
     return {frame->front(), *pixel};
 }
 

@@ -189,7 +189,7 @@ Result<Inspected> look_into(const InspectFlags& flags) {
     auto shot = load_shot(source);
     if (!shot) return shot.error();
     if (flags.input.transfer && !shot->display_referred)
-        return Error{ErrorCode::InvalidArgument, "--transfer is for whole numbers, as those of PNG; " +
+        return Error{ErrorCode::InvalidArgument, "--transfer is for whole numbers, such as those of PNG; " +
                                                      flags.input.path + " does not hold them"};
     const DynamicRange range = measure_dynamic_range(shot->colour.view(), shot->display_referred);
     Json report = report_of(*shot, flags, range);

@@ -36,7 +36,7 @@ Result<std::pair<int, int>> parse_window(const std::string& text) {
         const auto width = parse_size_px(text.substr(0, x)), height = parse_size_px(text.substr(x + 1));
         if (width && height) return std::pair(*width, *height);
     }
-    return Error{ErrorCode::InvalidArgument, "not a width and a height, as 1280x800"};
+    return Error{ErrorCode::InvalidArgument, "not a width and a height, such as 1280x800"};
 }
 
 Result<int> parse_port(const std::string& text) {
@@ -277,8 +277,8 @@ void add_view(Verb& program, Action& chosen) {
     auto flags = std::make_shared<ViewFlags>();
     flags->add_shown_to(verb);
     FlagGroup(verb, "Window")
-        .reads("--against", "FILE", "another picture to compare with, as the truth or a frame made before",
-               flags->against)
+        .reads("--against", "FILE",
+               "another picture to compare with, such as the truth or a frame made before", flags->against)
         .value(
             "--scene", "NAME",
             "a built-in scene, or a .gltf or .glb file, instead of IN, rendered at every move of its camera",

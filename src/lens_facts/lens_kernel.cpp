@@ -115,7 +115,7 @@ Result<LensDisc> disc_of(const kernel::LensModel& lens, double coc_radius_px, Fi
                          int size_px, bool raw) {
     if (const Status status = check_radius(lens, coc_radius_px); !status) return status.error();
     if (!(std::hypot(field.x, field.y) <= 1.001))
-        return refuse("disc.field must lie within the half diagonal, as 0.5,-0.3");
+        return refuse("disc.field must lie within the half diagonal, such as 0.5,-0.3");
     if (size_px < 0 || size_px > kLargestDiscPx)
         return refuse("disc.size_px must be 0 (as the disc needs) to " + std::to_string(kLargestDiscPx));
     const kernel::PointSpread spread =

@@ -62,7 +62,7 @@ Rules rules_of_engines() {
          }},
         {{"focus.falloff"},
          [](const Look& l) {
-             return unless(l.coc.focus_far_m > 0, "without focus.range_m, as focus.range_m 1.8m,3m");
+             return unless(l.coc.focus_far_m > 0, "without focus.range_m, such as focus.range_m 1.8m,3m");
          }},
         {{"depth.edges", "focus.range_m", "focus.falloff", "focus.near_scale", "focus.far_scale",
           "focus.max_radius_px"},
@@ -206,7 +206,7 @@ Rules rules_of_lenses() {
         {kCharacter, without_images},
         {{"lens.blade_rotation_deg", "lens.blade_curvature", "lens.iris_open"},
          [](const Look& l) {
-             return unless(l.lens.aperture.blades > 0, "without lens.blades, as lens.blades 5");
+             return unless(l.lens.aperture.blades > 0, "without lens.blades, such as lens.blades 5");
          }},
         {{"lens.texture_seed"},
          [](const Look& l) {
@@ -254,12 +254,16 @@ Rules rules_of_character() {
 Rules rules_of_light() {
     return {
         {{"glare.bloom_radius", "glare.bloom_threshold"},
-         [](const Look& l) { return unless(l.glare.bloom > 0, "without glare.bloom, as glare.bloom 0.1"); }},
+         [](const Look& l) {
+             return unless(l.glare.bloom > 0, "without glare.bloom, such as glare.bloom 0.1");
+         }},
         {{"glare.star_radius", "glare.star_quality"},
-         [](const Look& l) { return unless(l.glare.star > 0, "without glare.star, as glare.star 0.1"); }},
+         [](const Look& l) {
+             return unless(l.glare.star > 0, "without glare.star, such as glare.star 0.1");
+         }},
         {{"glare.coating"},
          [](const Look& l) {
-             return unless(l.glare.ghosts > 0, "without glare.ghosts, as glare.ghosts 0.02");
+             return unless(l.glare.ghosts > 0, "without glare.ghosts, such as glare.ghosts 0.02");
          }},
         {{"glare.coating"},
          [](const Look& l) {
@@ -302,9 +306,10 @@ Status possible(const Look& look) {
     };
     const GlareAmounts& g = look.glare;
     if (g.star > 0 && look.lens.aperture.blades < 3)
-        return refused("glare.star",
-                       "glare.star needs an aperture with blades, as lens.blades 6: a round one throws no "
-                       "spikes");
+        return refused(
+            "glare.star",
+            "glare.star needs an aperture with blades, such as lens.blades 6: a round one throws no "
+            "spikes");
     if (g.bloom + g.star + g.ghosts + g.veil > 1)
         return refused("",
                        "glare.bloom, glare.star, glare.ghosts and glare.veil together take more than all "

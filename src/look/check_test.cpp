@@ -37,9 +37,9 @@ TEST(LookCheck, EachChoiceWithoutEffectIsASentenceThatBeginsWithItsField) {
 }
 
 TEST(LookCheck, WhatWasSaidIsAChoiceAlsoAtItsDefault) {
-    EXPECT_EQ(
-        idle({}, {"glare.coating", "lens.blades"}),
-        std::vector<std::string>{"glare.coating has no effect without glare.ghosts, as glare.ghosts 0.02"});
+    EXPECT_EQ(idle({}, {"glare.coating", "lens.blades"}),
+              std::vector<std::string>{
+                  "glare.coating has no effect without glare.ghosts, such as glare.ghosts 0.02"});
 }
 
 TEST(LookCheck, BloomHasAThresholdOfItsOwn) {

@@ -124,7 +124,7 @@ Result<Look> look_from_json(const std::string& text) {
             if (const Status done = set(look, key, value); !done) return done.error();
             continue;
         }
-        if (!value.is_object()) return no_look(key + ": must be an object with keys, as lens and glare are");
+        if (!value.is_object()) return no_look(key + ": must be an object with keys, like lens and glare");
         for (const auto& [name, inner] : value.items())
             if (const Status done = set(look, key + "." + name, inner); !done) return done.error();
     }

@@ -150,7 +150,8 @@ Result<OcioPicture> ocio_codes(View<const Rgba> picture, const OcioView& view, i
                                Workers* workers) {
     const char* const path = std::getenv("OCIO");
     if (!path || !*path)
-        return invalid("ocio.view: $OCIO is not set; it names the config, as /shows/one/config.ocio");
+        return invalid(
+            "ocio.view: $OCIO is not set; set it to a config file, such as /shows/one/config.ocio");
     std::error_code missing;
     const auto kind = std::filesystem::status(path, missing).type();
     if (kind != std::filesystem::file_type::regular && kind != std::filesystem::file_type::not_found)

@@ -136,8 +136,8 @@ Status FrameMaker::read() {
     tell_new_warnings();
     if (settings_.transfer && !shot_.display_referred && *kind_of_output(settings_.output) != FileKind::Png)
         return Error{ErrorCode::InvalidArgument,
-                     "read.transfer is for whole numbers, as those of PNG; neither " + settings_.source.path +
-                         " nor " + settings_.output + " holds them"};
+                     "read.transfer is for whole numbers, such as those of PNG; neither " +
+                         settings_.source.path + " nor " + settings_.output + " holds them"};
     if (expands_plate()) note("highlights: " + in_words(look().expansion));
     record_["seconds"]["read"] = watch.seconds();
     record_["detected"] = shot_.detected;

@@ -45,7 +45,7 @@ struct Range {
 Result<Range> parse_range(std::string_view text, std::string_view all) {
     std::string_view rest = text;
     const auto first = take_number(rest);
-    if (!first) return refused(all, "a frame number is missing; as 1001-1100x2,1200");
+    if (!first) return refused(all, "a frame number is missing; for example 1001-1100x2,1200");
     Range range{*first, *first, 1};
     if (take(rest, '-')) {
         const auto last = take_number(rest);
@@ -54,7 +54,8 @@ Result<Range> parse_range(std::string_view text, std::string_view all) {
     }
     if (take(rest, 'x')) {
         const auto step = take_number(rest);
-        if (!step || *step < 1) return refused(all, "the step of a range is a number from 1 on; as 1-100x2");
+        if (!step || *step < 1)
+            return refused(all, "the step of a range is a number from 1 on; for example 1-100x2");
         range.step = *step;
     } else if (rest.starts_with(':')) {
         const std::string range_text(text.substr(0, text.size() - rest.size()));

@@ -115,7 +115,7 @@ public:
             if (colon == std::string::npos)
                 return Error{
                     ErrorCode::InvalidArgument,
-                    path_ + " " + text + ": not FRAME:X,Y or FRAME:METRES, as 1001:80,45 or 1024:3.2"};
+                    path_ + " " + text + ": not FRAME:X,Y or FRAME:METRES, such as 1001:80,45 or 1024:3.2"};
             const std::string at = text.substr(colon + 1);
             const std::size_t comma = at.find(',');
             std::map<std::string, std::string> key{{"frame", text.substr(0, colon)}};

@@ -162,7 +162,7 @@ Status check(const ShotSource& source) {
     const bool has_range = source.depth.range_near && source.depth.range_far;
     const std::string name = name_of(kind);
     if (ranged && !has_range)
-        return invalid("depth.kind " + name + " needs depth.range NEAR,FAR, as depth.range 0.1,100");
+        return invalid("depth.kind " + name + " needs depth.range NEAR,FAR, such as depth.range 0.1,100");
     if (!ranged && has_range && kind != DepthKind::Inverse && kind != DepthKind::CocPx)
         return invalid(
             "depth.range is for depth.kind normalized, device, inverse, mist or coc-px; depth here is " +

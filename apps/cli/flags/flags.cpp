@@ -167,7 +167,8 @@ void FlagGroup::add_switch(const std::string& name, const std::string& help, std
                                 name.substr(name.rfind(',') + 1)](const std::string& text) -> std::string {
         static const std::set<std::string> known{"true", "false", "on", "off", "1", "0"};
         if (!known.contains(text))
-            throw UsageError(spoken + "=" + text + ": takes no value but on and off, as " + spoken + "=off");
+            throw UsageError(spoken + "=" + text + ": takes no value but on and off, such as " + spoken +
+                             "=off");
         return "";
     };
     verb_.add_flag_function(name, count, help)->check(on_or_off)->group(heading_);

@@ -130,7 +130,7 @@ Result<double> parse_f_number(const std::string& text) {
     const bool spelled = text.size() > 2 && (text[0] == 'f' || text[0] == 'F') && text[1] == '/';
     const auto number = whole_number(spelled ? text.substr(2) : text);
     return number && *number > 0 ? Result<double>(*number)
-                                 : no("must be an f-number above 0, as 2.8 or f/2.8");
+                                 : no("must be an f-number above 0, such as 2.8 or f/2.8");
 }
 
 Result<double> parse_length_mm(const std::string& text) { return parse_length(text, "mm"); }
@@ -140,7 +140,7 @@ Result<Interval> parse_range(const std::string& text) {
     const auto parts = split_at_comma(text);
     const auto low = parts ? whole_number(parts->first) : std::nullopt;
     const auto high = parts ? whole_number(parts->second) : std::nullopt;
-    if (!low || !high) return no("must be two numbers without units and a comma between, as 0.1,100");
+    if (!low || !high) return no("must be two numbers without units and a comma between, such as 0.1,100");
     return Interval{*low, *high};
 }
 
@@ -156,7 +156,7 @@ Result<MotionScale> parse_motion_scale(const std::string& text) {
 
 Result<Interval> parse_range_m(const std::string& text) {
     const auto parts = split_at_comma(text);
-    if (!parts) return no("must be two distances with a comma between, as 1.8m,3m");
+    if (!parts) return no("must be two distances with a comma between, such as 1.8m,3m");
     const auto near = parse_length_m(parts->first), far = parse_length_m(parts->second);
     if (!near) return near.error();
     if (!far) return far.error();
@@ -169,7 +169,7 @@ Result<PixelPosition> parse_pixel(const std::string& text) {
     constexpr int kMost = 1 << 24;
     const auto x = parse_integer(parts ? parts->first : "", -kMost, kMost, "");
     const auto y = parse_integer(parts ? parts->second : "", -kMost, kMost, "");
-    if (!x || !y) return no("must be a pixel, column and row from the top left, as 480,270");
+    if (!x || !y) return no("must be a pixel, column and row from the top left, such as 480,270");
     return PixelPosition{*x, *y};
 }
 
@@ -181,7 +181,8 @@ Result<Rect> parse_region(const std::string& text) {
         if (const auto end = parse_integer(part, -kMost, kMost, "")) ends.push_back(*end);
     const bool fits = std::count(text.begin(), text.end(), ',') == 3 && ends.size() == 4;
     if (!fits || ends[0] >= ends[2] || ends[1] >= ends[3])
-        return no("must be the part's first column and row and the ones after its last, as 480,270,640,360");
+        return no(
+            "must be the part's first column and row and the ones after its last, such as 480,270,640,360");
     return Rect{ends[0], ends[1], ends[2], ends[3]};
 }
 
@@ -191,7 +192,7 @@ Result<WorldPoint> parse_place(const std::string& text) {
     const auto x = whole_number(text.substr(0, comma)), y = whole_number(others ? others->first : ""),
                z = whole_number(others ? others->second : "");
     if (!x || !y || !z || !std::isfinite(*x + *y + *z))
-        return no("must be a point of the scene, three numbers in its units, as 1.5,0,-3");
+        return no("must be a point of the scene, three numbers in its units, such as 1.5,0,-3");
     return WorldPoint{*x, *y, *z};
 }
 
@@ -253,7 +254,7 @@ Result<std::vector<std::string>> parse_words(const std::string& text) {
 
 Result<std::vector<BarrelRim>> parse_barrel(const std::string& text) {
     const auto wrong =
-        no("must be rims as RADIUS,DISTANCE in mm, several with ; between, as \"14,20;14,-20\"");
+        no("must be rims as RADIUS,DISTANCE in mm, several with ; between, such as \"14,20;14,-20\"");
     std::vector<BarrelRim> rims;
     for (const std::string& rim : split_at(text, ';')) {
         const auto numbers = split_at(rim, ',');
@@ -272,7 +273,7 @@ Result<std::vector<BarrelRim>> parse_barrel(const std::string& text) {
 
 Result<BarnDoors> parse_barn_doors(const std::string& text) {
     const auto wrong =
-        no("must be four numbers, left, right, top and bottom, 0 (open) to below 2, as 0.5,0,0,0.2");
+        no("must be four numbers, left, right, top and bottom, 0 (open) to below 2, such as 0.5,0,0,0.2");
     std::vector<double> doors;
     for (const std::string& part : split_at(text, ',')) {
         const auto door = parse_not_negative(part);

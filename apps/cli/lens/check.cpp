@@ -75,7 +75,7 @@ void add_lens_check(Verb& lens, Action& chosen) {
     run->add_json_to(verb);
     run->add_log_to(verb, false);
     when_typed(verb, [name, run, &verb, &chosen] {
-        require_argument(verb, *name, "a lens file, or a lens, as tessar");
+        require_argument(verb, *name, "a lens file, or a lens, such as tessar");
         run->apply();
         chosen = [name, run] { return check_lens(*name, *run); };
     });

@@ -37,7 +37,7 @@ void MountFlags::add_lens_to(Verb& verb, const LookFlags::Idle& idle) {
 }
 
 void MountFlags::check_lens(const Verb& verb) {
-    require_argument(verb, lens_name, "a lens, as doublet, or a lens file");
+    require_argument(verb, lens_name, "a lens, such as doublet, or a lens file");
     camera.check();
     look.look().lens.name = lens_name;
     look.settle();

@@ -134,7 +134,7 @@ Status report_many(const LensReportFlags& flags) {
 void check(const LensReportFlags& flags, const Verb& verb) {
     refuse_both(flags.all, "--all", !flags.lenses.empty(), "a lens");
     if (!flags.all && flags.lenses.empty())
-        require_argument(verb, "", "a lens, as doublet, a lens file, or --all");
+        require_argument(verb, "", "a lens, such as doublet, a lens file, or --all");
     const bool many = flags.all || flags.lenses.size() > 1;
     if (many) require_argument(verb, flags.output, "-o DIR");
     const std::string who = flags.all ? "--all" : "a report of several lenses";
@@ -161,8 +161,9 @@ void add_lens_report(Verb& lens, Action& chosen) {
                    flags->lenses)
         .on("--all", "a page for every lens that ships, a contact sheet and a comparison", flags->all);
     FlagGroup(verb, "Output")
-        .value("-o,--output", "PATH", "a page, as sheet.html, or a folder, made if missing (default: here)",
-               parse_text, flags->output);
+        .value("-o,--output", "PATH",
+               "a page, such as sheet.html, or a folder, made if missing (default: here)", parse_text,
+               flags->output);
     flags->overwrite.add_to(verb, false);
     flags->run.add_json_to(verb);
     flags->run.add_log_to(verb, true);

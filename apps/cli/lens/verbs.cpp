@@ -233,7 +233,7 @@ void add_lens_show(Verb& lens, Action& chosen) {
     run->add_json_to(verb);
     run->add_log_to(verb, false);
     when_typed(verb, [name, run, &verb, &chosen] {
-        require_argument(verb, *name, "a lens, as tessar, or a lens file");
+        require_argument(verb, *name, "a lens, such as tessar, or a lens file");
         run->apply();
         chosen = [name, run] { return show_lens(*name, *run); };
     });

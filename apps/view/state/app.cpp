@@ -339,8 +339,9 @@ void App::record(const std::string& path) {
         if (frame >= line.first && frame <= line.last)
             frames.push_back({scene_wish(frame), *pattern ? (*pattern)->path(frame) : path});
     if (frames.size() > 1 && !*pattern)
-        return void(error =
-                        path + ": a name for many frames has a place for their number, as scene-####.exr");
+        return void(
+            error =
+                path + ": a name for many frames needs a place for the frame number, such as scene-####.exr");
     if (!path.ends_with(".exr") && !path.ends_with(".png"))
         return void(error = path + ": the name must end in .exr (sharp, with depth) or .png (as shown)");
     for (const Recorded& one : frames)

@@ -317,7 +317,7 @@ const std::vector<Command>& commands() {
         {"pick", "X Y", "print the values of this pixel", pick},
         {"focus_by", "STEPS", "focus farther by fiftieths, or nearer", focus_by},
         {"stop_by", "STEPS", "close the aperture by thirds of a stop, or open it", stop_by},
-        {"set", "FIELD VALUE", "any field of camera, look and view, as lens.blades", set},
+        {"set", "FIELD VALUE", "any field of camera, look and view, such as lens.blades", set},
         {"toggle", "FIELD", "a switch", toggle},
         {"exposure_by", "STOPS", "brighter, or darker", exposure_by},
         {"channel", "rgb|r|g|b|a", "one channel; again: all", channel},
