@@ -1,11 +1,14 @@
 #include "petzval/farm/jobs.h"
 
 #include "petzval/frames.h"
+#include "petzval/output.h"
 
 #include "farm/writers.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <span>
 
 #include <nlohmann/json.hpp>
@@ -46,6 +49,13 @@ const std::vector<std::pair<std::string, FarmSystem>>& farm_systems() {
     return systems;
 }
 
+std::string farm_job_name(const std::string& folder) {
+    std::string name = std::filesystem::path(folder).filename().string();
+    const auto is_odd = [](unsigned char c) { return !std::isalnum(c) && c != '_' && c != '-'; };
+    std::replace_if(name.begin(), name.end(), is_odd, '_');
+    return name.size() < 3 ? "petzval_" + name : name;
+}
+
 int farm_chunk(double seconds_per_frame, std::size_t frames) {
     const double most = double(std::max<std::size_t>(frames, 1));
     return int(std::clamp(std::floor(kSecondsPerChunk / seconds_per_frame), 1.0, most));
@@ -72,6 +82,18 @@ Result<std::vector<FarmFile>> farm_files(const FarmShot& shot, FarmSystem system
     if (!file) return file.error();
     return std::vector<FarmFile>{
         {"shot.json", farm::shot_json(shot)}, {"run.sh", farm::run_script(shot), true}, std::move(*file)};
+}
+
+Result<std::string> write_farm_file(const FarmShot& shot, const FarmFile& file) {
+    namespace fs = std::filesystem;
+    std::string path = shot.folder + "/" + file.name;
+    if (Status done = write_text(path, file.text); !done) return done.error();
+    if (!file.is_program) return path;
+    std::error_code error;
+    fs::permissions(path, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
+                    fs::perm_options::add, error);
+    if (error) return Error{ErrorCode::OutputFailed, path + ": " + error.message()};
+    return path;
 }
 
 std::string farm::quoted(const std::string& word) {

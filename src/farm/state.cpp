@@ -3,6 +3,8 @@
 
 #include "petzval/frames.h"
 #include "petzval/made_with.h"
+#include "petzval/output.h"
+#include "petzval/records.h"
 
 #include "farm/writers.h"
 
@@ -151,6 +153,72 @@ std::vector<FarmFrame> farm_frames(const FarmShot& shot, FarmCheck check) {
         list.push_back(std::move(frame));
     }
     return list;
+}
+
+const char* name_of(FarmFrame::State state) {
+    switch (state) {
+        case FarmFrame::State::Complete:
+            return "complete";
+        case FarmFrame::State::Damaged:
+            return "damaged";
+        case FarmFrame::State::Failed:
+            return "failed";
+        case FarmFrame::State::Left:
+            break;
+    }
+    return "left";
+}
+
+FarmSummary farm_summary(const std::vector<FarmFrame>& frames) {
+    FarmSummary sum;
+    double most = 0;
+    for (const FarmFrame& f : frames) {
+        sum.frames[f.state].push_back(f.frame);
+        if (f.state == FarmFrame::State::Failed) sum.failures[f.why].push_back(f.frame);
+        if (f.state != FarmFrame::State::Complete) ++sum.incomplete;
+        if (f.state != FarmFrame::State::Complete && f.may_pass) sum.to_try.push_back(f.frame);
+        sum.peak_bytes = std::max(sum.peak_bytes, f.peak_memory_bytes);
+        if (!f.seconds) continue;
+        sum.seconds.push_back(*f.seconds);
+        if (*f.seconds < most) continue;
+        most = *f.seconds;
+        sum.slowest = f.frame;
+    }
+    std::sort(sum.seconds.begin(), sum.seconds.end());
+    return sum;
+}
+
+std::string record_of_frames(const std::vector<FarmFrame>& frames) {
+    using Ordered = nlohmann::ordered_json;
+    const auto given = [](const std::string& text) {
+        return text.empty() ? Ordered(nullptr) : Ordered(text);
+    };
+    const auto number = [](const std::optional<double>& value) {
+        return value ? Ordered::parse(record_of_number(*value)) : Ordered(nullptr);
+    };
+    Ordered all = Ordered::array();
+    for (const FarmFrame& f : frames)
+        all.push_back({{"frame", f.frame},
+                       {"state", name_of(f.state)},
+                       {"output", f.output},
+                       {"error", given(f.why)},
+                       {"may_pass", f.may_pass},
+                       {"process", given(f.process)},
+                       {"seconds", number(f.seconds)},
+                       {"peak_memory_bytes", f.peak_memory_bytes}});
+    return all.dump(-1, ' ', false, Ordered::error_handler_t::replace);
+}
+
+Status merge_farm_records(const FarmShot& shot, const std::vector<FarmFrame>& frames) {
+    std::string records;
+    for (const FarmFrame& f : frames)
+        if (!f.record.empty()) records += f.record + "\n";
+    if (Status done = write_text(shot.folder + "/report.jsonl", records); !done) return done;
+    const std::string left = shot.folder + "/left";
+    std::error_code ignored;
+    fs::remove(left, ignored);
+    const std::string commands = farm_commands(shot, farm_summary(frames).to_try);
+    return commands.empty() ? Status(Done{}) : write_text(left, commands);
 }
 
 std::string farm_commands(const FarmShot& shot, std::vector<int> frames) {

@@ -64,14 +64,6 @@ void check(WriteFlags& flags, const Verb& verb) {
             "--overwrite: a chunk that runs again keeps complete frames; remove old frames first");
 }
 
-// The name of the job's folder: at least three letters, digits, _ and -, as all systems take it.
-std::string job_name(const fs::path& folder) {
-    std::string name = folder.filename().string();
-    const auto is_odd = [](unsigned char c) { return !std::isalnum(c) && c != '_' && c != '-'; };
-    std::replace_if(name.begin(), name.end(), is_odd, '_');
-    return name.size() < 3 ? "petzval_" + name : name;
-}
-
 // The command of a chunk: this program, the words, and that complete frames are kept.
 std::vector<std::string> command_of(const WriteFlags& flags) {
     std::error_code unknown;
@@ -113,25 +105,11 @@ Status measure(const WriteFlags& flags, FarmShot& shot) {
     return Done{};
 }
 
-Status put(const FarmShot& shot, const std::vector<FarmFile>& files) {
-    for (const FarmFile& file : files) {
-        const std::string path = shot.folder + "/" + file.name;
-        if (Status done = petzval::write_text(path, file.text); !done) return done;
-        std::error_code error;
-        if (file.is_program)
-            fs::permissions(path, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
-                            fs::perm_options::add, error);
-        if (error) return Error{ErrorCode::OutputFailed, path + ": " + error.message()};
-        note("wrote " + path);
-    }
-    return Done{};
-}
-
 Result<FarmShot> facts(const WriteFlags& flags) {
     FarmShot shot;
     shot.folder = fs::absolute(flags.folder).lexically_normal().string();
     if (shot.folder.ends_with("/")) shot.folder.pop_back();
-    shot.name = job_name(shot.folder);
+    shot.name = farm_job_name(shot.folder);
     shot.working_folder = fs::current_path().string();
     shot.command = command_of(flags);
     shot.threads = flags.shot.run.threads;
@@ -165,7 +143,12 @@ Status write(const WriteFlags& flags) {
         if (Status done = measure(flags, *shot); !done) return done;
     const auto files = farm_files(*shot, *flags.system);
     if (!files) return files.error();
-    return put(*shot, *files);
+    for (const FarmFile& file : *files) {
+        const auto path = write_farm_file(*shot, file);
+        if (!path) return path.error();
+        note("wrote " + *path);
+    }
+    return Done{};
 }
 
 }  // namespace

@@ -37,6 +37,9 @@ struct FarmFile {
     bool is_program = false;
 };
 
+// A name for the job in this folder that all systems accept, made of the folder's name.
+PETZVAL_API std::string farm_job_name(const std::string& folder);
+
 // Frames that take about a minute: the start of a process is then below 1 % of the work, and a machine that
 // dies loses little. `seconds_per_frame` above 0.
 PETZVAL_API int farm_chunk(double seconds_per_frame, std::size_t frames);
@@ -44,5 +47,7 @@ PETZVAL_API int farm_chunk(double seconds_per_frame, std::size_t frames);
 // shot.json with all facts, run.sh, and the files of the system. Errors: InvalidArgument if the system
 // cannot express the shot, such as negative frames in Flamenco.
 PETZVAL_API Result<std::vector<FarmFile>> farm_files(const FarmShot& shot, FarmSystem system);
+// Writes one of them below shot.folder and returns its path. Errors: OutputFailed.
+PETZVAL_API Result<std::string> write_farm_file(const FarmShot& shot, const FarmFile& file);
 
 }  // namespace petzval

@@ -7,6 +7,7 @@
 #include "petzval/result.h"
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,6 +36,32 @@ enum class FarmCheck { Exists, ReadWhole };
 // All frames of the shot, ascending. A line of a record that a killed process left unfinished is skipped.
 PETZVAL_API std::vector<FarmFrame> farm_frames(const FarmShot& shot, FarmCheck check);
 
+// "complete", "damaged", "failed", "left".
+PETZVAL_API const char* name_of(FarmFrame::State state);
+
+struct FarmSummary {
+    std::map<FarmFrame::State, std::vector<int>> frames = {};
+    std::map<std::string, std::vector<int>> failures = {};  // by their message
+    std::vector<int> to_try = {};                           // another try may complete these frames
+    std::vector<double> seconds = {};                       // of complete frames, ascending
+    int slowest = 0;                                        // the frame of seconds.back()
+    std::size_t peak_bytes = 0;
+    std::size_t incomplete = 0;
+};
+PETZVAL_API FarmSummary farm_summary(const std::vector<FarmFrame>& frames);
+// A JSON array with the state of each frame, infinity as record_of_number() writes it.
+PETZVAL_API std::string record_of_frames(const std::vector<FarmFrame>& frames);
+// Writes all records, in the order of frames, to FOLDER/report.jsonl, and the commands for `to_try` to
+// FOLDER/left, which is removed where none are left. Errors: OutputFailed.
+PETZVAL_API Status merge_farm_records(const FarmShot& shot, const std::vector<FarmFrame>& frames);
+
+// Submits FOLDER/petzval.sbatch to Slurm by sbatch and remembers the job's id in FOLDER/slurm_jobs. Returns
+// the id. elements: of the array, as slurm_elements() returns them; empty: all. Errors: InvalidArgument if
+// the job is not for Slurm or is still in its queue; Unsupported if Slurm is not installed; OutputFailed.
+PETZVAL_API Result<std::string> slurm_submit(const FarmShot& shot, const std::string& elements = "");
+// Elements of the submitted jobs in Slurm's queue, by their state: "3 RUNNING, 12 PENDING"; empty: none.
+// Errors: Unsupported if Slurm is not installed; OutputFailed.
+PETZVAL_API Result<std::string> slurm_queue(const FarmShot& shot);
 // The elements of the array in petzval.sbatch that render these frames: "0,3-7", as sbatch --array takes it.
 PETZVAL_API std::string slurm_elements(const FarmShot& shot, const std::vector<int>& frames);
 // One command per line that renders these frames, as in the file `commands`.

@@ -1,4 +1,4 @@
-#include "console/child.h"
+#include "farm/child.h"
 
 #include <array>
 #include <cerrno>
@@ -10,7 +10,7 @@
 
 extern char** environ;  // NOLINT(readability-redundant-declaration): POSIX leaves it to us
 
-namespace petzval::cli {
+namespace petzval::farm {
 
 Result<std::string> output_of(const std::vector<std::string>& words) {
     std::vector<std::string> copy = words;
@@ -44,4 +44,4 @@ Result<std::string> output_of(const std::vector<std::string>& words) {
     return text;
 }
 
-}  // namespace petzval::cli
+}  // namespace petzval::farm
