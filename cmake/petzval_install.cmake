@@ -48,7 +48,10 @@ petzval_component(petzval_lib_files PACKAGE petzval-files HEADERS ${headers}/fil
                   ${headers}/focus_track.h
                   REQUIRES petzval OpenEXR libpng libdeflate libisal ${raster_modules}
                   DESCRIPTION "EXR, PNG, JPEG and TIFF for petzval")
-install(FILES ${headers}/farm/jobs.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/petzval/farm)
+foreach(folder farm shots)
+  file(GLOB folder_headers CONFIGURE_DEPENDS ${headers}/${folder}/*.h)
+  install(FILES ${folder_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/petzval/${folder})
+endforeach()
 petzval_component(petzval_lib_scenes PACKAGE petzval-scenes HEADERS ${headers}/scene.h
                   REQUIRES petzval LIBS "-lembree3 ${petzval_gltf_links}" DESCRIPTION "Built-in scenes of petzval")
 petzval_component(petzval_lib_ocio PACKAGE petzval-ocio HEADERS ${headers}/ocio.h

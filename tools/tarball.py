@@ -72,7 +72,8 @@ def install(build, prefix):
     for header in headers.rglob("*"):
         if header.is_file() and not header.name.endswith("_c.h"):
             header.unlink()
-    shutil.rmtree(headers / "farm", ignore_errors=True)
+    for folder in ("farm", "shots"):
+        shutil.rmtree(headers / folder, ignore_errors=True)
     shutil.move(prefix / "lib/OFX", prefix / "OFX")
     for empty in sorted(prefix.glob("lib/**/"), reverse=True):
         if not any(empty.iterdir()):

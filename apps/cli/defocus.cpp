@@ -2,7 +2,6 @@
 #include "petzval/shot_run.h"
 
 #include "console/console.h"
-#include "console/interrupt.h"
 #include "flags/defocus_flags.h"
 #include "flags/fields.h"
 #include "guard.h"
@@ -16,13 +15,7 @@ namespace {
 
 // Callbacks of a run, in addition to those of a loop.
 ShotRunHost with_picture(FrameLoopHost loop, const DefocusFlags& flags) {
-    ShotRunHost host;
-    static_cast<FrameLoopHost&>(host) = std::move(loop);
-    if (flags.ocio.is_on())
-        host.to_display = [ocio = flags.ocio](Picture& light, DevelopSettings& settings, std::string& used,
-                                              std::vector<std::string>& warnings) {
-            return ocio.show(light, settings, used, warnings);
-        };
+    ShotRunHost host = flags.ocio.display(std::move(loop));
     host.camera_example = [input = flags.input.path, output = flags.output](const FoundCamera& found) {
         return camera_example(found, input, output);
     };
@@ -52,15 +45,13 @@ Status make_shot(const DefocusFlags& flags) {
 }  // namespace
 
 ShotRunHost picture_host(const DefocusFlags& flags) {
-    FrameLoopHost loop;
+    FrameLoopHost loop = terminal();
     // Removes the bar from the screen before a line is printed.
     const auto bar = std::make_shared<std::unique_ptr<ProgressLine>>();
     loop.say = [bar](Say how, const std::string& line) {
         bar->reset();
         say(how, line);
     };
-    loop.cancelled = [] { return interrupted_by() != 0; };
-    loop.in_words = [](const std::string& line) { return in_flags(line); };
     ShotRunHost host = with_picture(std::move(loop), flags);
     host.frame_progress = [bar, mode = flags.run.progress, quiet = flags.run.quiet](double share) {
         if (!*bar) *bar = std::make_unique<ProgressLine>(mode, quiet, "defocus");

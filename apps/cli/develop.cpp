@@ -1,9 +1,6 @@
 // petzval develop: scene-linear light to a display picture.
-#include "petzval/develop.h"
+#include "petzval/shots/develop_shot.h"
 
-#include "petzval/session.h"
-
-#include "console/console.h"
 #include "console/report.h"
 #include "flags/camera.h"
 #include "flags/look_flags.h"
@@ -14,7 +11,6 @@
 #include "output.h"
 #include "verbs.h"
 
-#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -34,97 +30,35 @@ struct DevelopVerbFlags {
     FrameFlags frames;
 };
 
-// Camera numbers that are missing are an error only where a part of the glare needs them.
-Status add_glare(Shot& shot, const Lens& lens, const DevelopVerbFlags& flags) {
-    Rendered taken;
-    taken.place = shot.place;
-    taken.camera = known_camera(shot.camera, shot.image_scale);
-    Session session({.threads = flags.run.threads});
-    auto light = session.add_light(std::move(shot.colour), taken, flags.look.look(), {.lens = lens});
-    if (!light) return light.error();
-    shot.colour = std::move(*light);
-    return Done{};
-}
-
-Json report_of(const Shot& shot, const DevelopVerbFlags& flags, const DevelopSettings& settings) {
-    Json report = new_report("develop");
-    report["input"] = flags.input.path;
-    report["output"] = flags.output;
-    report["detected"] = shot.detected;
-    report["warnings"] = shot.warnings;
-    report["non_finite"]["colour"] = shot.non_finite_colour;
-    report["parameters"] = {{"exposure_stops", flags.develop.exposure_stops.value_or(0)},
-                            {"contrast", settings.contrast},
-                            {"tone", name_of(settings.tone)},
-                            {"ocio", flags.ocio.view},
-                            {"bits", settings.bits},
-                            {"dither", settings.dither}};
-    report["glare"] = glare_json(flags.look.look());
-    return report;
-}
-
-MadeWith made_with_of(const DevelopVerbFlags& flags) {
-    MadeWith made;
-    made.add(flags.look.look());
-    made.add_files(flags.input.files());
-    made.add(flags.input.source(flags.camera));
-    made.add(flags.develop);
-    if (flags.ocio.is_on()) made.add("ocio.view", flags.ocio.view);
-    if (!flags.ocio.space.empty()) made.add("ocio.working_space", flags.ocio.space);
-    if (flags.no_dither) made.add("develop.dither", "off");
-    return made;
-}
-
 // Returns the report, which is written too where a file was asked for.
 Result<Json> develop_file(const DevelopVerbFlags& flags, const Lens& lens) {
-    const Stopwatch total;
-    const MadeWith made_with = made_with_of(flags);
-    const OutputState there = flags.overwrite.state_of({flags.output}, flags.input.files(), &made_with);
-    if (there.is_kept) {
-        note(there.why);
-        return Json{{"input", flags.input.path}, {"output", flags.output}, {"skipped", there.why}};
-    }
-    if (!there.why.empty()) note(flags.output + ": made again: " + there.why);
-    auto shot = load_shot(flags.input.source(flags.camera));
-    if (!shot) return shot.error();
-    for (const auto& line : detected_in_picture(*shot)) note(line);
-    for (const auto& line : shot->warnings) warning(line);
-    const double read_s = total.seconds();
-    if (Status glared = add_glare(*shot, lens, flags); !glared) return glared.error();
-    const double glare_s = total.seconds() - read_s;
-    DevelopSettings settings =
-        flags.develop.settings(shot->display_referred, flags.input.transfer, flags.run.threads);
-    settings.dither = !flags.no_dither;
-    const Place& place = shot->place;
-    Picture shown = through_window(shot->colour, place.data_window, place.display_window, Rgba{});
-    if (flags.ocio.is_on()) {
-        std::string used;
-        std::vector<std::string> said;
-        if (Status fine = flags.ocio.show(shown, settings, used, said); !fine) return fine.error();
-        for (const std::string& line : said) warning(line);
-        shot->warnings.insert(shot->warnings.end(), said.begin(), said.end());
-        note(used);
-    }
-    Status done = write_developed(flags.output, shown.view(), settings, !flags.overwrite.no_clobber,
-                                  place.pixel_aspect, {{kMadeWith, made_with.text()}});
-    if (!done) return done.error();
-    note("wrote " + flags.output);
-    Json report = report_of(*shot, flags, settings);
-    if (!there.why.empty()) report["made_again"] = there.why;
-    report["seconds"]["read"] = read_s;
-    report["seconds"]["glare"] = glare_s;
-    report["seconds"]["write"] = total.seconds() - read_s - glare_s;
-    report["seconds"]["total"] = total.seconds();
-    report["peak_memory_bytes"] = peak_memory_bytes();
-    if (flags.run.json.empty()) return report;
-    if (Status written = write_report(report, flags.run.json); !written) return written.error();
-    return report;
+    DevelopShot shot;
+    shot.source = flags.input.source(flags.camera);
+    shot.look = flags.look.look();
+    shot.display = flags.develop;
+    shot.transfer = flags.input.transfer;
+    shot.dither = !flags.no_dither;
+    if (flags.ocio.is_on()) shot.display_view = flags.ocio.view;
+    shot.display_space = flags.ocio.space;
+    shot.output = flags.output;
+    shot.existing = flags.overwrite.existing();
+    shot.threads = flags.run.threads;
+    const auto made = develop_picture(shot, lens, flags.ocio.display(terminal()));
+    if (!made) return made.error();
+    return Json::parse(made->record);
+}
+
+Status develop_one(const DevelopVerbFlags& flags, const Lens& lens) {
+    const auto report = develop_file(flags, lens);
+    if (!report) return report.error();
+    const bool is_kept = report->contains("skipped");
+    return is_kept || flags.run.json.empty() ? Status(Done{}) : write_report(*report, flags.run.json);
 }
 
 Status develop_frames(const DevelopVerbFlags& all, const Lens& lens) {
     const auto of_frame = [&](int frame) {
         DevelopVerbFlags flags = all;
-        put_frame(frame, {&flags.input.path, &flags.output, &flags.run.json});
+        put_frame(frame, {&flags.input.path, &flags.output});
         return flags;
     };
     FrameWork work;
@@ -132,16 +66,14 @@ Status develop_frames(const DevelopVerbFlags& all, const Lens& lens) {
     work.keeps_what_is_there = all.overwrite.no_clobber || all.overwrite.update;
     work.files = [&](int frame) -> Result<FrameWork::Files> {
         const DevelopVerbFlags flags = of_frame(frame);
-        FrameWork::Files files{flags.input.files(), {flags.output}};
-        if (!flags.run.json.empty()) files.outputs.push_back(flags.run.json);
-        return files;
+        return FrameWork::Files{files_of(flags.input), {flags.output}};
     };
-    work.make = [&](int frame, bool again) {
+    const auto make = [&](int frame, bool again) {
         DevelopVerbFlags flags = of_frame(frame);
         if (again) flags.overwrite = {};
-        return record_of(develop_file(flags, lens));
+        return develop_file(flags, lens);
     };
-    return make_frames(all.frames, all.run, work);
+    return make_frames(all.frames, all.run, with_reports(std::move(work), all.run, make));
 }
 
 Status develop_all(const DevelopVerbFlags& flags) {
@@ -149,8 +81,7 @@ Status develop_all(const DevelopVerbFlags& flags) {
     if (!lens) return lens.error();
     if (is_sequence(flags.frames, {flags.input.path}, flags.output, flags.run))
         return develop_frames(flags, *lens);
-    const auto made = develop_file(flags, *lens);
-    return made ? Status(Done{}) : Status(made.error());
+    return develop_one(flags, *lens);
 }
 
 void check(DevelopVerbFlags& flags, const Verb& verb) {

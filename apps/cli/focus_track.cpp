@@ -1,10 +1,6 @@
 // petzval focus-track: computes the focus distance of every frame from pixels that are sharp in a few frames.
 #include "petzval/focus_track.h"
 
-#include "petzval/output.h"
-
-#include "console/console.h"
-#include "console/report.h"
 #include "flags/camera.h"
 #include "flags/run_flags.h"
 #include "frames.h"
@@ -62,72 +58,15 @@ void check(FocusTrackFlags& flags, const Verb& verb) {
         throw UsageError("no frames: the input has no #### or %04d");
 }
 
-class Measuring {
-public:
-    explicit Measuring(const FocusTrackFlags& flags) : all_(flags) {}
-
-    Status operator()() {
-        if (const auto reason = all_.overwrite.reason_to_skip(written_files(), {})) {
-            note(*reason);
-            return Done{};
-        }
-        FrameWork work;
-        work.input = has_pattern(all_.input.path) ? all_.input.path : all_.input.read.depth_file;
-        work.files = [&](int frame) -> Result<FrameWork::Files> {
-            return FrameWork::Files{of(frame).files(), {}};
-        };
-        work.make = [&](int frame, bool) { return record_of(measure(frame)); };
-        work.finish = [&] { return write(); };
-        return make_frames(all_.frames, all_.run, work);
-    }
-
-private:
-    std::vector<std::string> written_files() const {
-        std::vector<std::string> files{all_.output};
-        if (!all_.plot.empty()) files.push_back(all_.plot);
-        return files;
-    }
-    InputFlags of(int frame) const {
-        InputFlags input = all_.input;
-        put_frame(frame, {&input.path, &input.read.depth_file});
-        return input;
-    }
-
-    Result<Json> measure(int frame) {
-        const auto shot = load_shot(of(frame).source());
-        if (!shot) return shot.error();
-        const PixelPosition pixel = pixel_at(all_.picks, frame);
-        const auto distance = distance_around_m(*shot, pixel, all_.within_px);
-        if (!distance) return distance.error();
-        Json record = {{"input", shot->path}, {"pixel", {pixel.x, pixel.y}}, {"warnings", shot->warnings}};
-        record["focus_distance_m"] = *distance ? number(**distance) : Json(nullptr);
-        if (*distance)
-            measured_.push_back({frame, **distance});
-        else
-            record["warnings"].push_back("frame " + std::to_string(frame) + ": nothing is seen at " +
-                                         std::to_string(pixel.x) + "," + std::to_string(pixel.y) +
-                                         "; focus is interpolated between its neighbours");
-        return record;
-    }
-
-    Status write() {
-        if (measured_.empty())
-            return Error{ErrorCode::InvalidFile, "no frame shows anything at the pixels of --at"};
-        std::sort(measured_.begin(), measured_.end(),
-                  [](const FocusKey& a, const FocusKey& b) { return a.frame < b.frame; });
-        const std::vector<FocusKey> track = smoothed(measured_, all_.smooth_frames);
-        const bool overwrite = !all_.overwrite.no_clobber;
-        if (Status done = petzval::write_text(all_.output, track_csv(track), overwrite); !done) return done;
-        note("wrote " + all_.output + ", " + std::to_string(track.size()) + " keys");
-        if (all_.plot.empty()) return Done{};
-        const Status drawn = petzval::write_text(all_.plot, focus_plot(measured_, track), overwrite);
-        if (drawn) note("wrote " + all_.plot);
-        return drawn;
-    }
-
-    const FocusTrackFlags& all_;
-    std::vector<FocusKey> measured_;
-};
+Status track_focus(const FocusTrackFlags& flags) {
+    std::vector<std::string> outputs{flags.output};
+    if (!flags.plot.empty()) outputs.push_back(flags.plot);
+    if (flags.overwrite.skips(outputs)) return Done{};
+    FocusTracking tracking{flags.input.source(),       flags.picks,  flags.within_px,
+                           flags.smooth_frames,        flags.output, flags.plot,
+                           !flags.overwrite.no_clobber};
+    return make_frames(flags.frames, flags.run, work_of(std::move(tracking), terminal()));
+}
 
 }  // namespace
 
@@ -157,7 +96,7 @@ void add_focus_track(Verb& program, Action& chosen) {
     flags->run.add_log_to(verb, true);
     when_typed(verb, [flags, &verb, &chosen] {
         check(*flags, verb);
-        chosen = [flags] { return Measuring(*flags)(); };
+        chosen = [flags] { return track_focus(*flags); };
     });
 }
 

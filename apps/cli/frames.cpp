@@ -75,16 +75,35 @@ bool is_sequence(const FrameFlags& frames, const std::vector<std::string>& input
     return true;
 }
 
-Result<FrameRecord> record_of(const Result<Json>& report) {
-    if (!report) return report.error();
-    return frame_record(report->dump(-1, ' ', false, Json::error_handler_t::replace));
+FrameWork with_reports(FrameWork work, const RunFlags& run,
+                       std::function<Result<Json>(int frame, bool again)> make) {
+    const std::string json = run.json;
+    if (!json.empty())
+        work.files = [json, files_of = std::move(work.files)](int frame) {
+            auto files = files_of(frame);
+            if (files) files->outputs.push_back(at_frame(json, frame));
+            return files;
+        };
+    work.make = [json, make = std::move(make)](int frame, bool again) -> Result<FrameRecord> {
+        const auto report = make(frame, again);
+        if (!report) return report.error();
+        if (!json.empty() && !report->contains("skipped"))
+            if (Status done = write_report(*report, at_frame(json, frame)); !done) return done.error();
+        return frame_record(report->dump(-1, ' ', false, Json::error_handler_t::replace));
+    };
+    return work;
 }
 
-FrameLoopHost loop_host(const FrameFlags& frames, const RunFlags& run) {
+FrameLoopHost terminal() {
     FrameLoopHost host;
     host.say = say;
     host.cancelled = [] { return interrupted_by() != 0; };
     host.in_words = [](const std::string& line) { return in_flags(line); };
+    return host;
+}
+
+FrameLoopHost loop_host(const FrameFlags& frames, const RunFlags& run) {
+    FrameLoopHost host = terminal();
     if (frames.report == "-") host.frame_done = [](const FrameRecord& done) { return print(done.record); };
     if (run.progress != ProgressMode::Auto) {  // a line a frame says as much
         const auto bar = std::make_shared<std::unique_ptr<ProgressLine>>();

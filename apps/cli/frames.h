@@ -47,8 +47,11 @@ void put_frame(int frame, const std::vector<std::string*>& paths);
 bool is_sequence(const FrameFlags& frames, const std::vector<std::string>& inputs, const std::string& output,
                  const RunFlags& run);
 
-// The record of a frame that a verb made.
-Result<FrameRecord> record_of(const Result<Json>& report);
+// The same work, whose frames are made with a report each, which --json writes to a file of that frame.
+FrameWork with_reports(FrameWork work, const RunFlags& run,
+                       std::function<Result<Json>(int frame, bool again)> make);
+// Messages and cancelling on this program's terminal.
+FrameLoopHost terminal();
 // Messages and questions of the loop on this program's terminal.
 FrameLoopHost loop_host(const FrameFlags& frames, const RunFlags& run);
 // Once a loop has ended: throws FramesFailed where some of its frames failed.

@@ -73,17 +73,8 @@ void InputFlags::add_layers_to(Verb& verb) {
 }
 
 void InputFlags::check() const {
-    for (const std::string& file : files()) run_files().reads(file);
+    for (const std::string& file : files_of(*this)) run_files().reads(file);
     if (const Status fine = petzval::check(source()); !fine) throw UsageError(in_flags(fine.error().message));
-}
-
-std::vector<std::string> InputFlags::files() const {
-    std::vector<std::string> all{path};
-    for (const std::string* other : {&read.depth_file, &behind, &holdout, &lights})
-        if (!other->empty()) all.push_back(*other);
-    all.insert(all.end(), merge.begin(), merge.end());
-    if (!mask.empty()) all.push_back(file_channel(mask).file);
-    return all;
 }
 
 ShotSource InputFlags::source(const CameraFlags& user) const {

@@ -31,8 +31,6 @@ struct InputFlags : ShotSource {
     // Throws UsageError for depth flags that contradict each other.
     void check() const;
     bool depth_is_coc() const { return depth_kind == DepthKind::CocPx; }
-    // Files that are read.
-    std::vector<std::string> files() const;
     // The source of the shot, with the user's camera.
     ShotSource source(const CameraFlags& user = {}) const;
 };

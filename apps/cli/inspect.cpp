@@ -1,4 +1,6 @@
 // petzval inspect: what was found in a file, and where.
+#include "petzval/shots/inspection.h"
+
 #include "console/changes.h"
 #include "console/console.h"
 #include "console/light_report.h"
@@ -123,15 +125,14 @@ void describe_list(const char* heading, const std::vector<std::string>& lines, s
     for (const std::string& line : lines) out << "  " << one_line(in_flags(line)) << "\n";
 }
 
-// Nothing where a camera number is missing.
-std::optional<FocusLimits> limits_of(const Shot& shot, const InspectFlags& flags) {
-    const auto camera = complete_camera(shot.camera, shot.image_scale);
-    if (!camera) return std::nullopt;
-    const auto limits = focus_limits(*camera, shot.place.display_window.width(), flags.permissible_radius_px);
-    return limits ? std::optional(*limits) : std::nullopt;
-}
+struct Inspected {
+    Shot shot;
+    Inspection seen;
+    Json report;
+};
 
-std::string description(const Shot& shot, const InspectFlags& all, const DynamicRange& range) {
+std::string description(const Inspected& inspected, const InspectFlags& all) {
+    const auto& [shot, seen, report] = inspected;
     const InputFlags& flags = all.input;
     std::ostringstream out;
     out << one_line(flags.path) << "\n  display window " << window_text(shot.place.display_window);
@@ -142,45 +143,13 @@ std::string description(const Shot& shot, const InspectFlags& all, const Dynamic
     describe_list("detected", detected_in_picture(shot), out);
     describe_depth(shot, flags, out);
     describe_camera(shot.camera, out);
-    if (const auto limits = limits_of(shot, all)) describe_limits(*limits, all.permissible_radius_px, out);
-    describe_range(range, out);
+    if (seen.limits) describe_limits(*seen.limits, all.permissible_radius_px, out);
+    describe_range(seen.range, out);
     if (shot.non_finite_colour > 0) out << "non-finite colour values\n  " << shot.non_finite_colour << "\n";
     describe_list("warnings", shot.warnings, out);
-    describe_list("advice", range.advice, out);
+    describe_list("advice", seen.range.advice, out);
     return printable(out.str());
 }
-
-Json report_of(const Shot& shot, const InspectFlags& all, const DynamicRange& range) {
-    const InputFlags& flags = all.input;
-    Json report = new_report("inspect");
-    report["input"] = flags.path;
-    report["display_window"] = window_json(shot.place.display_window);
-    report["data_window"] = window_json(shot.place.data_window);
-    report["pixel_aspect"] = shot.place.pixel_aspect;
-    report["display_referred"] = shot.display_referred;
-    report["has_alpha"] = shot.has_alpha;
-    report["parts"] = Json::array();
-    for (const PartSummary& part : shot.parts) report["parts"].push_back(part_json(part));
-    report["depth"] = shot.depth_plane().empty()
-                          ? Json(nullptr)
-                          : depth_json(shot.depth_report, flags.depth_kind.value_or(DepthKind::Planar));
-    report["deep_samples"] = shot.deep.sample_count();
-    report["camera"] = camera_json(shot.camera, ImageScale::Rendered);
-    const auto limits = limits_of(shot, all);
-    report["focus_limits"] = limits ? limits_json(*limits, all.permissible_radius_px) : Json(nullptr);
-    report["dynamic_range"] = range_json(range);
-    report["detected"] = shot.detected;
-    report["warnings"] = shot.warnings;
-    for (const std::string& line : range.advice) report["warnings"].push_back(line);
-    report["non_finite"] = {{"colour", shot.non_finite_colour}, {"depth", shot.depth_report.non_finite}};
-    return report;
-}
-
-struct Inspected {
-    Shot shot;
-    DynamicRange range;
-    Json report;
-};
 
 Result<Inspected> look_into(const InspectFlags& flags) {
     const Stopwatch watch;
@@ -191,17 +160,19 @@ Result<Inspected> look_into(const InspectFlags& flags) {
     if (flags.input.transfer && !shot->display_referred)
         return Error{ErrorCode::InvalidArgument, "--transfer is for whole numbers, such as those of PNG; " +
                                                      flags.input.path + " does not hold them"};
-    const DynamicRange range = measure_dynamic_range(shot->colour.view(), shot->display_referred);
-    Json report = report_of(*shot, flags, range);
+    Inspection seen =
+        inspection_of(*shot, flags.input.depth_kind.value_or(DepthKind::Planar), flags.permissible_radius_px);
+    Json report = Json::parse(seen.record);
+    report["input"] = flags.input.path;
     report["seconds"]["read"] = report["seconds"]["total"] = watch.seconds();
     report["peak_memory_bytes"] = peak_memory_bytes();
-    return Inspected{std::move(*shot), range, std::move(report)};
+    return Inspected{std::move(*shot), std::move(seen), std::move(report)};
 }
 
 Status inspect(const InspectFlags& flags) {
     const auto seen = look_into(flags);
     if (!seen) return seen.error();
-    return tell(description(seen->shot, flags, seen->range), seen->report, flags.run.json);
+    return tell(description(*seen, flags), seen->report, flags.run.json);
 }
 
 // World position of the camera: the point that becomes the origin if the matrix holds only rotations.
@@ -215,8 +186,9 @@ std::string place_of_camera(const FoundCamera& camera) {
 }
 
 // Values that may change over a shot, in the words of description().
-std::vector<Changes::Value> values_of(const Inspected& seen) {
-    const Shot& shot = seen.shot;
+std::vector<Changes::Value> values_of(const Inspected& inspected) {
+    const Shot& shot = inspected.shot;
+    const DynamicRange& range = inspected.seen.range;
     const auto found = [](const std::optional<FoundNumber>& number) {
         return number ? plain(number->value) : std::string("none");
     };
@@ -237,39 +209,33 @@ std::vector<Changes::Value> values_of(const Inspected& seen) {
             {"farthest m", metres(shot.depth_report.farthest_finite_m)},
             {"misses", std::to_string(shot.depth_report.misses)},
             {"deep samples", std::to_string(shot.deep.sample_count())},
-            {"middle light", plain(seen.range.middle, 3)},
-            {"brightest", plain(seen.range.brightest, 4)},
+            {"middle light", plain(range.middle, 3)},
+            {"brightest", plain(range.brightest, 4)},
             {"not finite", std::to_string(shot.non_finite_colour)}};
 }
 
 Status inspect_frames(const InspectFlags& all) {
     const auto of_frame = [&](int frame) {
         InspectFlags flags = all;
-        put_frame(frame, {&flags.input.path, &flags.input.read.depth_file, &flags.run.json});
+        put_frame(frame, {&flags.input.path, &flags.input.read.depth_file});
         return flags;
     };
     Changes changes;
     FrameWork work;
     work.input = all.input.path;
     work.files = [&](int frame) -> Result<FrameWork::Files> {
-        const InspectFlags flags = of_frame(frame);
-        FrameWork::Files files{flags.input.files(), {}};
-        if (!flags.run.json.empty()) files.outputs.push_back(flags.run.json);
-        return files;
+        return FrameWork::Files{files_of(of_frame(frame).input), {}};
     };
-    work.make = [&](int frame, bool) -> Result<FrameRecord> {
-        const InspectFlags flags = of_frame(frame);
-        auto seen = look_into(flags);
+    const auto make = [&](int frame, bool) -> Result<Json> {
+        auto seen = look_into(of_frame(frame));
         if (!seen) return seen.error();
         changes.add(frame, values_of(*seen));
-        if (!flags.run.json.empty())
-            if (Status done = write_report(seen->report, flags.run.json); !done) return done.error();
-        return record_of(seen->report);
+        return std::move(seen->report);
     };
     work.finish = [&] {
         return all.frames.report == "-" ? Status(Done{}) : write_text("-", printable(changes.text()));
     };
-    return make_frames(all.frames, all.run, work);
+    return make_frames(all.frames, all.run, with_reports(std::move(work), all.run, make));
 }
 
 }  // namespace

@@ -24,16 +24,10 @@ void OverwriteFlags::check() const {
     if (no_clobber) never_replace();
 }
 
-std::optional<std::string> OverwriteFlags::reason_to_skip(const std::vector<std::string>& outputs,
-                                                          const std::vector<std::string>& inputs) const {
-    const OutputState there = state_of(outputs, inputs);
-    return there.is_kept ? std::optional(in_flags(there.why)) : std::nullopt;
-}
-
-OutputState OverwriteFlags::state_of(const std::vector<std::string>& outputs,
-                                     const std::vector<std::string>& inputs,
-                                     const MadeWith* made_with) const {
-    return petzval::state_of(outputs, inputs, existing(), made_with);
+bool OverwriteFlags::skips(const std::vector<std::string>& outputs) const {
+    const OutputState there = state_of(outputs, {}, existing());
+    if (there.is_kept) note(there.why);
+    return there.is_kept;
 }
 
 ExistingOutputs OverwriteFlags::existing() const {

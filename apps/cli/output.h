@@ -21,13 +21,8 @@ struct OverwriteFlags {
     void add_to(Verb& verb, bool with_update);
     void check() const;  // throws UsageError for contradictions
     ExistingOutputs existing() const;
-    // A line that says why nothing needs to be done, or nothing: all outputs exist and --no-clobber, or all
-    // are newer than all inputs and -u.
-    std::optional<std::string> reason_to_skip(const std::vector<std::string>& outputs,
-                                              const std::vector<std::string>& inputs) const;
-    // The same, with the reason why -u renders an existing output again.
-    OutputState state_of(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs,
-                         const MadeWith* made_with = nullptr) const;
+    // Says why and returns true if all outputs exist and --no-clobber was given: no work is left.
+    bool skips(const std::vector<std::string>& outputs) const;
 };
 
 // Settings from scene-linear light to a display picture; only for PNG.

@@ -239,17 +239,12 @@ Status finish(const MakeFlags& flags, const FoundCamera& camera, ImageScale imag
         report["parameters"]["look_at"] = {flags.look_at->x, flags.look_at->y, flags.look_at->z};
     report["seconds"]["compute"] = compute_s;
     report["seconds"]["write"] = total.seconds() - compute_s;
-    report["seconds"]["total"] = total.seconds();
-    report["peak_memory_bytes"] = peak_memory_bytes();
-    return write_report(report, flags.run.json);
+    return write_report(finished(std::move(report), total), flags.run.json);
 }
 
 Status make_scene(const MakeFlags& all) {
     const Stopwatch total;
-    if (const auto reason = all.overwrite.reason_to_skip(all.outputs(), {})) {
-        note(*reason);
-        return Done{};
-    }
+    if (all.overwrite.skips(all.outputs())) return Done{};
     const MakeFlags flags = without_what_is_there(all);
     auto standing = StandingScene::build(flags.name, flags.scene);
     if (!standing) return standing.error();
@@ -298,7 +293,7 @@ Status make_scenes(const MakeFlags& all) {
         record["input"] = flags.name;
         record["output"] = flags.output;
         record["seconds"]["total"] = watch.seconds();
-        return record_of(Result<Json>(std::move(record)));
+        return frame_record(report_text(record, -1));
     };
     return make_frames(all.frames, all.run, work);
 }

@@ -70,10 +70,7 @@ void PointsFlags::check(const Verb& verb) {
 
 Status make_file(const PointsFlags& flags) {
     const Stopwatch total;
-    if (const auto reason = flags.overwrite.reason_to_skip({flags.output}, {})) {
-        note(*reason);
-        return Done{};
-    }
+    if (flags.overwrite.skips({flags.output})) return Done{};
     const PointSettings& s = flags.settings;
     const auto points = make_points(flags.name, s);
     if (!points) return points.error();
@@ -96,9 +93,7 @@ Status make_file(const PointsFlags& flags) {
                             {"horizon", s.horizon},
                             {"count", points->size()},
                             {"seed", s.seed}};
-    report["seconds"]["total"] = total.seconds();
-    report["peak_memory_bytes"] = peak_memory_bytes();
-    return write_report(report, flags.run.json);
+    return write_report(finished(std::move(report), total), flags.run.json);
 }
 
 }  // namespace

@@ -215,9 +215,9 @@ Status open_window(const ViewFlags& flags) {
     setup.scale = flags.scale.value_or(0);
     if (flags.size) setup.width = flags.size->first, setup.height = flags.size->second;
     setup.fields = field_rows();
-    for (const std::string& file : flags.input.files()) setup.files.reads(file);
+    for (const std::string& file : files_of(flags.input)) setup.files.reads(file);
     for (const std::string& file : {flags.points, flags.against, flags.script}) setup.files.reads(file);
-    for (const std::string& file : flags.look.lens_files()) setup.files.reads(file);
+    for (const std::string& file : files_of(flags.look.look())) setup.files.reads(file);
     setup.session = std::make_shared<Session>(flags.session());
     if (flags.device != "cpu") {
         SessionSettings settings = flags.session();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "petzval/export.h"
+#include "petzval/frame_loop.h"
 #include "petzval/shot.h"
 
 #include <span>
@@ -36,5 +37,21 @@ PETZVAL_API std::string track_csv(std::span<const FocusKey> keys);
 // A drawing (SVG): distance over frames, dioptres evenly, labelled in metres; what was measured as dots, the
 // track as a line. Requires: keys.
 PETZVAL_API std::string focus_plot(std::span<const FocusKey> measured, std::span<const FocusKey> track);
+
+// The track of a shot by picks in a few of its frames.
+struct FocusTracking {
+    ShotSource source;             // its path or that of its depth holds a frame number (frames.h)
+    std::vector<FocusPick> picks;  // at least one, frames ascending
+    int within_px = 2;             // the median depth of the pixels so many columns and rows around
+    double smooth_frames = 2;      // as smoothed() takes it
+    std::string output;            // the track, CSV
+    std::string plot = {};         // focus_plot(); empty: none
+    bool overwrite = true;         // false: an existing file is an error
+};
+// The work of a FrameLoop. The files are written once all frames are done; frames that show nothing at the
+// pick have no key, with a warning in their record. Of `host`, only `say` and `cancelled` are called. Errors
+// of frames: those of read_shot() and distance_around_m(); of the files: InvalidFile if no frame shows
+// anything there; OutputFailed.
+PETZVAL_API FrameWork work_of(FocusTracking tracking, FrameLoopHost host = {});
 
 }  // namespace petzval

@@ -45,6 +45,18 @@ PETZVAL_API std::string lens_comparison(const std::vector<LensCard>& cards);
 // The contact sheet as a separate SVG file.
 PETZVAL_API std::string lens_contact_sheet(const std::vector<LensCard>& cards);
 
+// The file name of a lens's page, NAME.html, of characters that every system takes.
+PETZVAL_API std::string lens_page_name(const std::string& name_or_file);
+// Those of several lenses, in their order. Errors: those of lens_facts(); InvalidArgument if two lenses would
+// have the same page.
+PETZVAL_API Result<std::vector<std::string>> lens_page_names(const std::vector<std::string>& lenses);
+// Writes the page of each lens into a folder that exists, then comparison.html, contact-sheet.svg and
+// index.html. Returns the paths in the order of writing. `progress` is called with the share done before each
+// lens; false cancels. Errors: those of lens_page_names() and lens_report(); Cancelled, OutputFailed.
+PETZVAL_API Result<std::vector<std::string>> write_lens_pages(
+    const std::vector<std::string>& lenses, const std::string& folder,
+    const std::function<bool(double)>& progress = {});
+
 // A picture through one lens.
 struct LensView {
     Picture light;     // the display window, scene-linear

@@ -115,6 +115,11 @@ struct FileChannel {
 };
 PETZVAL_API FileChannel file_channel(const std::string& text);
 
+// The files that a source and a look name: pictures, depth, lights; the lens and its pictures where it is a
+// file.
+PETZVAL_API std::vector<std::string> files_of(const ShotSource& source);
+PETZVAL_API std::vector<std::string> files_of(const Look& look);
+
 // Errors: InvalidArgument for settings that contradict each other (depth.kind without its depth.range, …).
 PETZVAL_API Status check(const ShotSource& source);
 

@@ -17,26 +17,16 @@ std::string in_words(const HighlightExpansion& e) {
            " at 1 (assumed); pixels are in the plate's own range";
 }
 
-std::vector<std::string> lens_files(const Look& look) {
-    std::vector<std::string> files;
-    std::error_code ignored;
-    if (std::filesystem::is_regular_file(look.lens.name, ignored)) files.push_back(look.lens.name);
-    for (const std::string& file : {look.kernel_image_far, look.kernel_image_near, look.aperture_image})
-        if (!file.empty()) files.push_back(file);
-    return files;
-}
+namespace {
 
+// Files that a frame is made of, without those of its look.
 std::vector<std::string> pictures_of(const ShotRunSettings& settings, const FrameContext& context) {
-    const ShotSource& source = settings.source;
-    std::vector<std::string> files{source.path};
-    for (const std::string* other : {&source.read.depth_file, &source.behind, &source.holdout})
-        if (!other->empty()) files.push_back(*other);
-    files.insert(files.end(), source.merge.begin(), source.merge.end());
-    if (!source.mask.empty()) files.push_back(file_channel(source.mask).file);
-    if (!source.lights.empty()) files.push_back(source.lights);
+    std::vector<std::string> files = files_of(settings.source);
     files.insert(files.end(), context.neighbours.begin(), context.neighbours.end());
     return files;
 }
+
+}  // namespace
 
 MadeWith made_with(const ShotRunSettings& settings, const FrameContext& context) {
     MadeWith made;
@@ -84,7 +74,7 @@ Result<Json> make_frame(Session& session, const ShotRunSettings& settings, const
 Status FrameMaker::make() {
     // Looks are compared by content, not by the age of their files.
     std::vector<std::string> inputs = pictures_of(settings_, context_);
-    for (std::string& file : lens_files(look())) inputs.push_back(std::move(file));
+    for (std::string& file : files_of(look())) inputs.push_back(std::move(file));
     const MadeWith made = made_with(settings_, context_);
     if (!context_.again) {
         const OutputState there = state_of({settings_.output}, inputs, settings_.existing, &made);

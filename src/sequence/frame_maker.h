@@ -35,11 +35,8 @@ Status make_black_frame(const ShotRunSettings& settings, const ShotRunSettings& 
 // The assumption in words, for logs and the attribute petzval:expandHighlights.
 std::string in_words(const HighlightExpansion& expansion);
 
-// Settings that Update compares; picture files that a frame is made of, without those of its look.
+// Settings that Update compares.
 MadeWith made_with(const ShotRunSettings& settings, const FrameContext& context);
-std::vector<std::string> pictures_of(const ShotRunSettings& settings, const FrameContext& context);
-// A lens and its pictures.
-std::vector<std::string> lens_files(const Look& look);
 
 class FrameMaker {
 public:

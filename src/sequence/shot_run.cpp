@@ -103,8 +103,8 @@ Result<std::vector<int>> ShotRun::State::frames_of_track() const {
 Result<FrameWork::Files> ShotRun::State::files(int frame) const {
     const auto of = of_frame(frame);
     if (!of) return of.error();
-    FrameWork::Files files{sequence::pictures_of(*of, {}), {of->output}};
-    for (std::string& file : sequence::lens_files(of->look)) files.inputs.push_back(std::move(file));
+    FrameWork::Files files{files_of(of->source), {of->output}};
+    for (std::string& file : files_of(of->look)) files.inputs.push_back(std::move(file));
     if (!settings.track_file.empty()) files.inputs.push_back(settings.track_file);
     if (!of->record_file.empty()) files.outputs.push_back(of->record_file);
     return files;

@@ -17,28 +17,10 @@ void describe_range(const DynamicRange& range, std::ostream& out) {
         << " % without light\n";
 }
 
-Json range_json(const DynamicRange& range) {
-    return {{"shadow", range.shadow},
-            {"middle", range.middle},
-            {"diffuse", range.diffuse},
-            {"specular", range.specular},
-            {"brightest", range.brightest},
-            {"diffuse_over_shadow_stops", range.diffuse_over_shadow_stops},
-            {"specular_over_diffuse_stops", range.specular_over_diffuse_stops},
-            {"comparison", range.comparison},
-            {"clipped_share", range.clipped_share},
-            {"black_share", range.black_share},
-            {"looks_encoded", range.looks_encoded}};
-}
-
 void describe_limits(const FocusLimits& limits, double permissible_radius_px, std::ostream& out) {
     out << "in focus (blur radius up to " << plain(permissible_radius_px) << " px)\n  "
         << plain(limits.near_m) << " m to " << plain(limits.far_m) << (limits.far_m < 1e30 ? " m" : "")
         << "; hyperfocal distance " << plain(limits.hyperfocal_m) << " m\n";
-}
-
-Json limits_json(const FocusLimits& limits, double permissible_radius_px) {
-    return Json::parse(record_of_limits(limits, permissible_radius_px));
 }
 
 }  // namespace petzval::cli

@@ -35,27 +35,14 @@ Json camera_json(const FoundCamera& camera, ImageScale image_scale) {
 
 Json look_json(const Look& look) { return Json::parse(look_to_json(look)); }
 
-Json glare_json(const Look& look) { return Json::parse(record_of_glare(look)); }
-
 Json lens_json(const Look& look, const std::string& description) {
     return Json::parse(record_of_lens(look, description));
 }
 
-Json window_json(const Rect& window) {
-    return {{"x", window.x0}, {"y", window.y0}, {"width", window.width()}, {"height", window.height()}};
-}
-
-Json part_json(const PartSummary& part) {
-    return {{"name", part.name},
-            {"type", part.type},
-            {"view", part.view},
-            {"compression", part.compression},
-            {"data_window", window_json(part.data_window)},
-            {"channels", part.channels}};
-}
-
-Json depth_json(const DepthReport& depth, DepthKind kind) {
-    return Json::parse(record_of_depth(depth, kind));
+Json finished(Json report, const Stopwatch& watch) {
+    report["seconds"]["total"] = watch.seconds();
+    report["peak_memory_bytes"] = peak_memory_bytes();
+    return report;
 }
 
 std::string report_text(const Json& report, int indent) {

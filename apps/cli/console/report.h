@@ -33,11 +33,9 @@ Json json_of(const std::string& text);
 Json camera_json(const FoundCamera& camera, ImageScale image_scale);
 // The look in the form of --save-look.
 Json look_json(const Look& look);
-Json glare_json(const Look& look);  // null where there is none
 Json lens_json(const Look& look, const std::string& description);
-Json part_json(const PartSummary& part);
-Json depth_json(const DepthReport& depth, DepthKind kind);
-Json window_json(const Rect& window);
+// The report with the seconds of the whole verb and its memory.
+Json finished(Json report, const Stopwatch& watch);
 
 // Writes it to a file, or "-" for standard output. Infinite numbers are written as 1e999: valid JSON that
 // readers take as infinity. Errors: OutputFailed.

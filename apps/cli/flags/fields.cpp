@@ -81,6 +81,7 @@ const Rows& other_flags() {
         {"disc.slices", "--slices"},
         {"focus.at", "--focus-at"},
         {"focus.permissible_radius_px", "--permissible-radius"},
+        {"focus.picks", "--at"},
         {"focus.point", "--focus-point"},
         {"job.engine", "--engine"},
         {"job.fill", "--fill"},

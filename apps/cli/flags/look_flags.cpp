@@ -3,6 +3,7 @@
 #include "petzval/look_check.h"
 #include "petzval/look_file.h"
 #include "petzval/look_json.h"
+#include "petzval/shot.h"
 
 #include "console/console.h"
 #include "flags/fields.h"
@@ -140,18 +141,9 @@ std::vector<std::string> LookFlags::given(const Headings& headings) const {
 }
 
 std::vector<std::string> LookFlags::input_files() const {
-    std::vector<std::string> files = lens_files();
+    std::vector<std::string> files = files_of(look_);
     std::error_code ignored;
     if (!file_.empty() && std::filesystem::exists(file_, ignored)) files.push_back(file_);
-    return files;
-}
-
-std::vector<std::string> LookFlags::lens_files() const {
-    std::vector<std::string> files;
-    std::error_code ignored;
-    if (std::filesystem::is_regular_file(look_.lens.name, ignored)) files.push_back(look_.lens.name);
-    for (const std::string& file : {look_.kernel_image_far, look_.kernel_image_near, look_.aperture_image})
-        if (!file.empty()) files.push_back(file);
     return files;
 }
 

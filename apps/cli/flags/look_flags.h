@@ -40,9 +40,8 @@ public:
     bool is_typed(const std::string& field) const;
     // Flags under these headings that were typed, for messages.
     std::vector<std::string> given(const Headings& headings) const;
-    // Files that are read: a look, a lens, pictures; and those of the lens alone.
+    // Files that are read: a look, a lens, pictures.
     std::vector<std::string> input_files() const;
-    std::vector<std::string> lens_files() const;
     const std::string& save_to() const { return save_to_; }
     // Options of one engine given on the command line, by flag: {"gather_taps": 16}.
     Json engine_options_json() const;

@@ -49,6 +49,17 @@ Status OcioFlags::show(Picture& light, DevelopSettings& settings, std::string& u
     return Done{};
 }
 
+ShotRunHost OcioFlags::display(FrameLoopHost host) const {
+    ShotRunHost shown;
+    static_cast<FrameLoopHost&>(shown) = std::move(host);
+    if (is_on())
+        shown.to_display = [ocio = *this](Picture& light, DevelopSettings& settings, std::string& used,
+                                          std::vector<std::string>& warnings) {
+            return ocio.show(light, settings, used, warnings);
+        };
+    return shown;
+}
+
 #ifdef PETZVAL_OCIO
 Result<Picture> OcioFlags::codes(View<const Rgba> light, int threads, std::string& used,
                                  std::vector<std::string>& warnings) const {

@@ -4,6 +4,7 @@
 #include "petzval/develop.h"
 #include "petzval/image.h"
 #include "petzval/result.h"
+#include "petzval/shot_run.h"
 
 #include "flags/flags.h"
 #include "output.h"
@@ -29,6 +30,8 @@ struct OcioFlags {
     // InvalidArgument if this program was built without OpenColorIO.
     Status show(Picture& light, DevelopSettings& settings, std::string& used,
                 std::vector<std::string>& warnings) const;
+    // The host with show() as its display, where --ocio was given.
+    ShotRunHost display(FrameLoopHost host) const;
 
 private:
     Result<Picture> codes(View<const Rgba> light, int threads, std::string& used,

@@ -72,10 +72,7 @@ Json header_of(const LensAtlas& atlas, const MountedLens& mounted, const AtlasFl
 Status write_atlas(AtlasFlags& flags) {
     const Stopwatch watch;
     const std::string header = flags.file("atlas.json"), texels = flags.file("atlas.bin");
-    if (const auto reason = flags.overwrite.reason_to_skip({header, texels}, {})) {
-        note(*reason);
-        return Done{};
-    }
+    if (flags.overwrite.skips({header, texels})) return Done{};
     const auto mounted = flags.open();
     if (!mounted) return mounted.error();
     const auto atlas = make_atlas(*mounted, flags);
@@ -96,9 +93,7 @@ Status write_atlas(AtlasFlags& flags) {
     report["lens"] = lens_json(flags.look.look(), atlas->lens);
     report["camera"] = described["camera"];
     report["radii_px"] = atlas->radii_px;
-    report["seconds"]["total"] = watch.seconds();
-    report["peak_memory_bytes"] = peak_memory_bytes();
-    return write_report(report, flags.run.json);
+    return write_report(finished(std::move(report), watch), flags.run.json);
 }
 
 // True for pupils that look different after a turn about the axis.

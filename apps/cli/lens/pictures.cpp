@@ -66,17 +66,12 @@ Status finish(const PictureFlags& flags, Json report, const LensMount& mount, co
     report["output"] = flags.output;
     report["lens"] = lens_json(flags.look.look(), description);
     report["camera"] = mount_json(mount);
-    report["seconds"]["total"] = watch.seconds();
-    report["peak_memory_bytes"] = peak_memory_bytes();
-    return write_report(report, flags.run.json);
+    return write_report(finished(std::move(report), watch), flags.run.json);
 }
 
 // The mounted lens of a picture, or nothing if there is nothing to do.
 Result<std::optional<MountedLens>> prepared(PictureFlags& flags) {
-    if (const auto reason = flags.overwrite.reason_to_skip({flags.output}, {})) {
-        note(*reason);
-        return std::optional<MountedLens>();
-    }
+    if (flags.overwrite.skips({flags.output})) return std::optional<MountedLens>();
     auto mounted = flags.open();
     if (!mounted) return mounted.error();
     return std::optional<MountedLens>(std::move(*mounted));

@@ -12,7 +12,6 @@
 #include "output.h"
 #include "verbs.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -34,16 +33,6 @@ bool is_page(const std::string& path) {
     return extension == ".html" || extension == ".htm" || extension == ".xhtml";
 }
 
-// A file name that every system takes.
-std::string page_name(const std::string& lens) {
-    std::error_code ignored;
-    std::string name = fs::is_regular_file(lens, ignored) ? fs::path(lens).stem().string() : lens;
-    for (char& c : name)
-        if (std::string("/\\:*?\"<>|").find(c) != std::string::npos || static_cast<unsigned char>(c) < 33)
-            c = '-';
-    return name + ".html";
-}
-
 Status finish(const LensReportFlags& flags, const std::vector<std::string>& written, const Stopwatch& watch) {
     if (flags.run.json.empty()) return Done{};
     Json report = new_report("lens report");
@@ -51,9 +40,7 @@ Status finish(const LensReportFlags& flags, const std::vector<std::string>& writ
     if (flags.lenses.size() > 1) report["inputs"] = flags.lenses;
     report["output"] = written.front();
     report["outputs"] = written;
-    report["seconds"]["total"] = watch.seconds();
-    report["peak_memory_bytes"] = peak_memory_bytes();
-    return write_report(report, flags.run.json);
+    return write_report(finished(std::move(report), watch), flags.run.json);
 }
 
 Status report_one(const LensReportFlags& flags) {
@@ -64,12 +51,9 @@ Status report_one(const LensReportFlags& flags) {
         // The lens first: a misspelt name makes no folder.
         if (const auto facts = lens_facts(lens); !facts) return facts.error();
         if (const Status made = make_folder(path.empty() ? "." : path); !made) return made;
-        path = (fs::path(path) / page_name(lens)).string();
+        path = (fs::path(path) / lens_page_name(lens)).string();
     }
-    if (const auto reason = flags.overwrite.reason_to_skip({path}, {})) {
-        note(*reason);
-        return Done{};
-    }
+    if (flags.overwrite.skips({path})) return Done{};
     run_files().writes(path);
     if (const Status fine = run_files().check(); !fine) return fine;
     const auto page = lens_report(lens);
@@ -79,24 +63,12 @@ Status report_one(const LensReportFlags& flags) {
     return finish(flags, {path}, watch);
 }
 
-// The pages by which lenses are known on sheets of many, in the order of the lenses.
-Result<std::vector<std::string>> page_names(const std::vector<std::string>& lenses) {
-    std::vector<std::string> names;
-    for (const std::string& lens : lenses) {
-        if (const auto facts = lens_facts(lens); !facts) return facts.error();
-        names.push_back(page_name(lens));
-        if (std::count(names.begin(), names.end(), names.back()) > 1)
-            return Error{ErrorCode::InvalidArgument, "two lenses would have the page " + names.back()};
-    }
-    return names;
-}
-
 Status report_many(const LensReportFlags& flags) {
     const Stopwatch watch;
     std::vector<std::string> lenses = flags.lenses;
     if (flags.all)
         for (const LensSummary& lens : lens_list()) lenses.push_back(lens.name);
-    const auto pages = page_names(lenses);
+    const auto pages = lens_page_names(lenses);
     if (!pages) return pages.error();
     if (const Status made = make_folder(flags.output); !made) return made;
     const fs::path folder = flags.output;
@@ -104,31 +76,12 @@ Status report_many(const LensReportFlags& flags) {
         for (const std::string& name : names) run_files().writes((folder / name).string());
     if (const Status fine = run_files().check(); !fine) return fine;
     ProgressLine progress(flags.run.progress, flags.run.quiet, "lens report");
-    std::vector<LensCard> cards;
-    std::vector<std::string> written;
-    const auto write = [&](const std::string& name, const std::string& text) {
-        written.push_back((folder / name).string());
-        return write_text(written.back(), text);
-    };
-    for (const std::string& lens : lenses) {
-        if (!progress(double(cards.size()) / double(lenses.size())))
-            return Error{ErrorCode::Cancelled, "stopped"};
-        const auto page = lens_report(lens);
-        if (!page) return page.error();
-        auto card = lens_card(lens);
-        if (!card) return card.error();
-        const std::string& name = (*pages)[cards.size()];
-        card->name = fs::path(name).stem().string();
-        cards.push_back(std::move(*card));
-        if (const Status done = write(name, *page); !done) return done;
-    }
-    if (const Status done = write("comparison.html", lens_comparison(cards)); !done) return done;
-    if (const Status done = write("contact-sheet.svg", lens_contact_sheet(cards)); !done) return done;
-    if (const Status done = write("index.html", lens_index(cards)); !done) return done;
-    progress(1);
-    note("wrote " + std::to_string(cards.size()) + " pages, comparison.html, contact-sheet.svg and " +
-         written.back());
-    return finish(flags, written, watch);
+    const auto written =
+        write_lens_pages(lenses, flags.output, [&](double share) { return progress(share); });
+    if (!written) return written.error();
+    note("wrote " + std::to_string(lenses.size()) + " pages, comparison.html, contact-sheet.svg and " +
+         written->back());
+    return finish(flags, *written, watch);
 }
 
 void check(const LensReportFlags& flags, const Verb& verb) {

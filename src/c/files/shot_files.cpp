@@ -4,8 +4,8 @@
 #include "petzval/petzval_files_c.h"
 #include "petzval/scene.h"
 #include "petzval/shot.h"
+#include "petzval/shots/inspection.h"
 
-#include "c/files/inspect.h"
 #include "c/files/lent_shot.h"
 #include "c/handles.h"
 #include "c/lent.h"
@@ -172,7 +172,7 @@ petzval_status petzval_files_inspect(const char* path, petzval_shot_file** file)
         if (!header) return fail(header.error());
         auto made = std::make_unique<petzval_shot_file>();
         made->lent.shot.size = sizeof made->lent.shot;
-        made->json = c::inspection_text(*header);
+        made->json = header_json(*header);
         *file = made.release();
         return PETZVAL_OK;
     });

@@ -1,4 +1,6 @@
-#include "video.h"
+#include "sequence/video.h"
+
+#include "petzval/shots/shot_sheet.h"
 
 #include <algorithm>
 #include <cctype>
@@ -14,7 +16,7 @@
 
 extern char** environ;  // NOLINT(readability-redundant-declaration): POSIX leaves it to us
 
-namespace petzval::cli {
+namespace petzval::sequence {
 namespace {
 
 namespace fs = std::filesystem;
@@ -36,8 +38,6 @@ const Container* container_of(const std::string& path) {
 }
 
 }  // namespace
-
-bool is_video(const std::string& path) { return container_of(path) != nullptr; }
 
 Status Video::failed(const std::string& why) const {
     return Error{ErrorCode::OutputFailed, path_ + ": " + why};
@@ -135,4 +135,6 @@ Status Video::finish() {
     return Done{};
 }
 
-}  // namespace petzval::cli
+}  // namespace petzval::sequence
+
+bool petzval::is_video(const std::string& path) { return sequence::container_of(path) != nullptr; }

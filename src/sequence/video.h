@@ -8,10 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace petzval::cli {
-
-// True for the extensions .mp4, .mov, .mkv and .webm.
-bool is_video(const std::string& path);
+namespace petzval::sequence {
 
 // The file appears complete or not at all.
 class Video {
@@ -34,4 +31,4 @@ private:
     int pipe_ = -1, process_ = -1;
 };
 
-}  // namespace petzval::cli
+}  // namespace petzval::sequence

@@ -1,0 +1,39 @@
+// Scene-linear pictures made into display pictures, as petzval develop does it: glare, exposure, tone curve,
+// one PNG a frame. Component petzval::files.
+#pragma once
+
+#include "petzval/display_files.h"
+#include "petzval/export.h"
+#include "petzval/frame_loop.h"
+#include "petzval/lens.h"
+#include "petzval/look.h"
+#include "petzval/made_with.h"
+#include "petzval/result.h"
+#include "petzval/shot.h"
+#include "petzval/shot_run.h"
+
+#include <optional>
+#include <string>
+
+namespace petzval {
+
+struct DevelopShot {
+    ShotSource source;  // depth is not read
+    Look look = {};     // its glare, and the lens that glare needs
+    DisplayChoice display = {};
+    std::optional<Transfer> transfer = {};  // as the user gave it
+    bool dither = true;
+    // Names of the display view and space that ShotRunHost::to_display shows, as in ShotRunSettings.
+    std::string display_view = {}, display_space = {};
+    std::string output;  // .png
+    ExistingOutputs existing = ExistingOutputs::Replace;
+    int threads = 0;  // 0: all
+};
+
+// One picture: paths hold no frame number. `lens` is that of the look. The record is that of `petzval develop
+// --json`. Of `host`, only `say`, `cancelled` and `to_display` are called. Errors: those of read_shot(), of
+// Session::add_light() and of to_display; OutputFailed.
+PETZVAL_API Result<FrameRecord> develop_picture(const DevelopShot& shot, const Lens& lens,
+                                                const ShotRunHost& host = {});
+
+}  // namespace petzval

@@ -1,0 +1,107 @@
+#include "petzval/shots/inspection.h"
+
+#include "petzval/records.h"
+
+#include "sequence/record_json.h"
+
+#include <utility>
+#include <vector>
+
+namespace petzval {
+namespace {
+
+using sequence::Json;
+
+Json corners(const Rect& r) { return {r.x0, r.y0, r.x1, r.y1}; }
+
+Json place_and_size(const Rect& r) {
+    return {{"x", r.x0}, {"y", r.y0}, {"width", r.width()}, {"height", r.height()}};
+}
+
+// `window` writes the data window.
+Json parts_json(const std::vector<PartSummary>& parts, Json (*window)(const Rect&)) {
+    Json all = Json::array();
+    for (const PartSummary& part : parts)
+        all.push_back({{"name", part.name},
+                       {"type", part.type},
+                       {"view", part.view},
+                       {"compression", part.compression},
+                       {"data_window", window(part.data_window)},
+                       {"channels", part.channels}});
+    return all;
+}
+
+Json range_json(const DynamicRange& range) {
+    return {{"shadow", range.shadow},
+            {"middle", range.middle},
+            {"diffuse", range.diffuse},
+            {"specular", range.specular},
+            {"brightest", range.brightest},
+            {"diffuse_over_shadow_stops", range.diffuse_over_shadow_stops},
+            {"specular_over_diffuse_stops", range.specular_over_diffuse_stops},
+            {"comparison", range.comparison},
+            {"clipped_share", range.clipped_share},
+            {"black_share", range.black_share},
+            {"looks_encoded", range.looks_encoded}};
+}
+
+// Numbers that the file holds, each with its origin.
+Json numbers_json(const FoundCamera& camera) {
+    Json json = Json::object();
+    for (const auto& [name, found] :
+         {std::pair("focal_length_mm", &camera.focal_length_mm),
+          std::pair("sensor_width_mm", &camera.sensor_width_mm), std::pair("f_number", &camera.f_number),
+          std::pair("focus_distance_m", &camera.focus_distance_m)})
+        if (*found) json[name] = {{"value", (*found)->value}, {"origin", (*found)->origin}};
+    return json;
+}
+
+std::optional<FocusLimits> limits_of(const Shot& shot, double permissible_radius_px) {
+    const auto camera = complete_camera(shot.camera, shot.image_scale);
+    if (!camera) return std::nullopt;
+    const auto limits = focus_limits(*camera, shot.place.display_window.width(), permissible_radius_px);
+    return limits ? std::optional(*limits) : std::nullopt;
+}
+
+}  // namespace
+
+Inspection inspection_of(const Shot& shot, DepthKind kind, double permissible_radius_px) {
+    Inspection seen{measure_dynamic_range(shot.colour.view(), shot.display_referred),
+                    limits_of(shot, permissible_radius_px),
+                    {}};
+    Json record = Json::parse(empty_record("inspect"));
+    record["input"] = shot.path;
+    record["display_window"] = place_and_size(shot.place.display_window);
+    record["data_window"] = place_and_size(shot.place.data_window);
+    record["pixel_aspect"] = shot.place.pixel_aspect;
+    record["display_referred"] = shot.display_referred;
+    record["has_alpha"] = shot.has_alpha;
+    record["parts"] = parts_json(shot.parts, place_and_size);
+    record["depth"] = nullptr;
+    if (!shot.depth_plane().empty()) record["depth"] = Json::parse(record_of_depth(shot.depth_report, kind));
+    record["deep_samples"] = shot.deep.sample_count();
+    record["camera"] = Json::parse(record_of_camera(shot.camera, ImageScale::Rendered));
+    record["focus_limits"] = nullptr;
+    if (seen.limits)
+        record["focus_limits"] = Json::parse(record_of_limits(*seen.limits, permissible_radius_px));
+    record["dynamic_range"] = range_json(seen.range);
+    record["detected"] = shot.detected;
+    record["warnings"] = shot.warnings;
+    for (const std::string& line : seen.range.advice) record["warnings"].push_back(line);
+    record["non_finite"] = {{"colour", shot.non_finite_colour}, {"depth", shot.depth_report.non_finite}};
+    seen.record = sequence::as_text(record);
+    return seen;
+}
+
+std::string header_json(const Frame& header) {
+    return sequence::as_text({{"parts", parts_json(header.parts, corners)},
+                              {"display_window", corners(header.place.display_window)},
+                              {"data_window", corners(header.place.data_window)},
+                              {"pixel_aspect", header.place.pixel_aspect},
+                              {"views", header.views},
+                              {"camera", numbers_json(header.camera)},
+                              {"detected", header.detected},
+                              {"warnings", header.warnings}});
+}
+
+}  // namespace petzval
