@@ -124,7 +124,7 @@ Status ended(const Status& done, const std::vector<int>& frames, const std::vect
     if (!done || failed.empty()) return done;
     int code = 4;
     if (why == ErrorCode::OutputFailed) code = 6;
-    if (why == ErrorCode::OutOfMemory) code = 1;
+    if (why == ErrorCode::OutOfMemory || why == ErrorCode::ReadFailed) code = 1;
     throw FramesFailed{std::to_string(failed.size()) + " of " + std::to_string(frames.size()) +
                            " frames failed: " + frames_text(failed),
                        code};

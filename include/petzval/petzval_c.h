@@ -35,7 +35,8 @@ typedef enum petzval_status {
     PETZVAL_OUTPUT_FAILED = 4,
     PETZVAL_OUT_OF_MEMORY = 5, /* of the machine, or more than the session may take */
     PETZVAL_CANCELLED = 6,     /* a callback asked to stop */
-    PETZVAL_INTERNAL = 7       /* a fault of ours */
+    PETZVAL_INTERNAL = 7,      /* a fault of ours */
+    PETZVAL_READ_FAILED = 8    /* the system failed to read a file; another try may succeed */
 } petzval_status;
 
 /* Why the last call of this thread that failed did; "" if none did. Lives until this thread's next failing

@@ -15,6 +15,7 @@ enum class ErrorCode {
     OutputFailed,     // an output could not be written: path, rights, disk
     OutOfMemory,      // the work does not fit the memory limit
     Cancelled,        // the progress callback asked to stop
+    ReadFailed,       // the system failed to read an input; another try may succeed
 };
 
 // One sentence: the problem, its place, and the accepted values. No trailing newline. Choices are named by

@@ -9,7 +9,7 @@ from .arrays import Array
 from .camera import Camera
 from .comparison import compare
 from .errors import (Cancelled, Error, Internal, InvalidArgument, InvalidFile, OutOfMemory, OutputFailed,
-                     Unsupported)
+                     ReadFailed, Unsupported)
 from .files import FileShot, inspect, make_scene, read_shot
 from .lens import Lens, lens_list, lens_names
 from .look import Look
@@ -18,7 +18,7 @@ from .session import Codes, Frame, Session, defocus, device_names, engine_names
 from .shot import Deep, Layer, Light, Shot
 
 __all__ = ["Array", "Camera", "Cancelled", "Codes", "Deep", "Error", "FileShot", "Frame", "Internal", "InvalidArgument", "InvalidFile",
-           "Layer", "Lens", "Light", "Look", "OutOfMemory", "OutputFailed", "Session", "Shot", "ShotRun", "Unsupported", "compare", "defocus",
+           "Layer", "Lens", "Light", "Look", "OutOfMemory", "OutputFailed", "ReadFailed", "Session", "Shot", "ShotRun", "Unsupported", "compare", "defocus",
            "device_names", "engine_names", "inspect", "lens_list", "lens_names", "make_scene", "read_shot", "version"]
 
 

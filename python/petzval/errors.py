@@ -43,6 +43,12 @@ class Cancelled(Error):
     status = "cancelled"
 
 
+class ReadFailed(Error, OSError):
+    """The system failed to read a file; another try may succeed."""
+
+    status = "read_failed"
+
+
 class Internal(Error, RuntimeError):
     """A fault of petzval."""
 
@@ -50,4 +56,4 @@ class Internal(Error, RuntimeError):
 
 
 BY_STATUS = {1: InvalidArgument, 2: InvalidFile, 3: Unsupported, 4: OutputFailed, 5: OutOfMemory, 6: Cancelled,
-             7: Internal}
+             7: Internal, 8: ReadFailed}

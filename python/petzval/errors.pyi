@@ -29,6 +29,10 @@ class Cancelled(Error):
     """A callback asked to stop."""
     status = 'cancelled'
 
+class ReadFailed(Error, OSError):
+    """The system failed to read a file; another try may succeed."""
+    status = 'read_failed'
+
 class Internal(Error, RuntimeError):
     """A fault of petzval."""
     status = 'internal'

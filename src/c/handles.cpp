@@ -28,6 +28,8 @@ petzval_status status_of(ErrorCode code) {
             return PETZVAL_OUT_OF_MEMORY;
         case ErrorCode::Cancelled:
             return PETZVAL_CANCELLED;
+        case ErrorCode::ReadFailed:
+            return PETZVAL_READ_FAILED;
     }
     return PETZVAL_INTERNAL;
 }

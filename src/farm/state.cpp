@@ -6,13 +6,13 @@
 #include "petzval/output.h"
 #include "petzval/records.h"
 
+#include "base/whole_file.h"
 #include "farm/writers.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <sstream>
 
 #include <nlohmann/json.hpp>
 
@@ -128,11 +128,10 @@ Result<FarmShot> farm_shot(const std::string& folder) {
     if (!fs::is_regular_file(path, problem))
         return Error{ErrorCode::InvalidFile,
                      path + ": does not exist; " + folder + " is no job of petzval farm write"};
-    std::ifstream file(path);
-    std::stringstream text;
-    text << file.rdbuf();
-    if (!file) return Error{ErrorCode::InvalidFile, path + ": cannot be read"};
-    auto shot = shot_of(Json::parse(text.str(), nullptr, false), path);
+    constexpr std::size_t kMostBytes = std::size_t(1) << 28;
+    const auto text = text_of_file(path, kMostBytes);
+    if (!text) return text.error();
+    auto shot = shot_of(Json::parse(*text, nullptr, false), path);
     if (!shot) return shot.error();
     shot->folder = fs::absolute(folder).lexically_normal().string();
     if (shot->folder.ends_with("/")) shot->folder.pop_back();

@@ -26,9 +26,9 @@ Result<std::string> read_text_attribute(const std::string& path, const std::stri
     const auto file = InputFile::open(path);
     if (!file) return file.error();
     Result<std::string> text = std::string();
-    const Status sound = guarded(path, [&]() -> Status {
+    const Status sound = guarded(**file, [&]() -> Status {
         text = starts_like_exr(**file) ? exr_text(*file, name) : text_of_png(**file, name);
-        return Done{};
+        return text ? Status(Done{}) : text.error();
     });
     return sound ? std::move(text) : Result<std::string>(sound.error());
 }

@@ -26,14 +26,14 @@ Result<Frame> read(const std::string& path, ReadOptions options, bool pixels) {
     if (!file) return file.error();
     std::optional<Result<Frame>> frame;
     // The room's door: whatever libraries threw and nobody caught further in stops here.
-    const Status sound = guarded(path, [&]() -> Status {
+    const Status sound = guarded(**file, [&]() -> Status {
         if (starts_like_exr(**file))
             frame = read_exr_frame(*file, options, pixels);
         else if (const RasterFormat* format = raster_format_of(**file))
             frame = read_raster_frame(*file, *format, options, pixels);
         else
             frame = unknown_format(**file);
-        return Done{};
+        return frame->has_value() ? Status(Done{}) : frame->error();
     });
     if (!sound) return sound.error();
     return std::move(*frame);
@@ -156,13 +156,15 @@ Result<Frame> read_frame_header(const std::string& path, const ReadOptions& opti
 Status read_depth_file(const ReadOptions& options, Frame& frame) {
     const auto file = InputFile::open_or_wait(options.depth_file, *options.workers, options.max_memory_bytes);
     if (!file) return file.error();
-    const RasterFormat* const format = raster_format_of(**file);
-    if (!format && !starts_like_exr(**file)) return unknown_format(**file);
-    auto depth = format ? depth_of_raster(**file, *format, options, frame)
-                        : depth_of_exr(*file, options, frame.place, frame.detected);
-    if (!depth) return depth.error();
-    frame.depth = std::move(*depth);
-    return Done{};
+    return guarded(**file, [&]() -> Status {
+        const RasterFormat* const format = raster_format_of(**file);
+        if (!format && !starts_like_exr(**file)) return unknown_format(**file);
+        auto depth = format ? depth_of_raster(**file, *format, options, frame)
+                            : depth_of_exr(*file, options, frame.place, frame.detected);
+        if (!depth) return depth.error();
+        frame.depth = std::move(*depth);
+        return Done{};
+    });
 }
 
 }  // namespace petzval

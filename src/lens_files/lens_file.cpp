@@ -1,11 +1,10 @@
 #include "lens_files/lens_file.h"
 
 #include "base/content_hash.h"
+#include "base/whole_file.h"
 #include "lens_files/readers.h"
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 
 namespace petzval::lens_files {
@@ -90,12 +89,8 @@ Result<LensFile> load_lens_file(const std::string& path) {
     if (std::filesystem::exists(path, problem) && !std::filesystem::is_regular_file(path, problem))
         return Error{ErrorCode::InvalidFile,
                      path + ": a pipe or a device, not a lens file; lenses are read from regular files"};
-    std::ifstream stream(path, std::ios::binary);
-    if (!stream) return Error{ErrorCode::InvalidFile, path + ": cannot be opened for reading"};
-    std::string bytes(kLargestLensFile + 1, '\0');
-    stream.read(bytes.data(), std::streamsize(bytes.size()));
-    bytes.resize(std::size_t(stream.gcount()));
-    return read_lens(bytes, path);
+    const auto bytes = text_of_file(path, kLargestLensFile);
+    return bytes ? read_lens(*bytes, path) : bytes.error();
 }
 
 }  // namespace petzval::lens_files

@@ -88,7 +88,8 @@ constexpr Named<ErrorCode> kErrorCodes[]{
     {ErrorCode::Unsupported, "unsupported", "understood, but not possible here"},
     {ErrorCode::OutputFailed, "output-failed", "an output could not be written"},
     {ErrorCode::OutOfMemory, "out-of-memory", "the work does not fit the memory limit"},
-    {ErrorCode::Cancelled, "cancelled", "asked to stop"}};
+    {ErrorCode::Cancelled, "cancelled", "asked to stop"},
+    {ErrorCode::ReadFailed, "read-failed", "the system failed to read an input"}};
 
 }  // namespace
 

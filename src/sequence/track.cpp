@@ -4,12 +4,12 @@
 #include "petzval/names.h"
 
 #include "base/number_text.h"
+#include "base/whole_file.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <set>
 #include <sstream>
@@ -136,11 +136,9 @@ public:
         std::error_code missing;
         if (!std::filesystem::is_regular_file(path_, missing)) return wrong("is not a file");
         if (std::filesystem::file_size(path_, missing) > kLargestFile) return wrong("is no track: too large");
-        std::ifstream in(path_, std::ios::binary);
-        std::stringstream text;
-        text << in.rdbuf();
-        if (!in) return wrong("cannot be read");
-        const std::string all = text.str();
+        const auto text = text_of_file(path_, kLargestFile);
+        if (!text) return text.error();
+        const std::string& all = *text;
         const std::size_t first = all.find_first_not_of(" \t\r\n");
         const Status read = first != std::string::npos && all[first] == '{' ? from_json(all) : from_csv(all);
         if (!read) return read.error();

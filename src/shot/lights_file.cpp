@@ -1,8 +1,11 @@
 #include "petzval/names.h"
 #include "petzval/shot.h"
 
+#include "base/whole_file.h"
+
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -59,7 +62,7 @@ public:
             return Error{ErrorCode::InvalidFile,
                          path_ + ": is not a regular file; pipes and devices cannot be read"};
         std::ifstream in(path_, std::ios::binary);
-        if (!in) return Error{ErrorCode::InvalidFile, path_ + ": cannot be read"};
+        if (!in) return unreadable(path_, errno);
         std::vector<char> text(kLongestLine + 1);
         bool has_header = false;
         while (in.getline(text.data(), std::streamsize(text.size()))) {
@@ -76,7 +79,7 @@ public:
         if (!in.bad() && !in.eof())
             return Error{ErrorCode::InvalidFile, path_ + ":" + std::to_string(line_ + 1) + ": more than " +
                                                      std::to_string(kLongestLine) + " characters in a line"};
-        if (in.bad()) return Error{ErrorCode::InvalidFile, path_ + ": cannot be read to its end"};
+        if (in.bad()) return Error{ErrorCode::ReadFailed, path_ + ": cannot be read to its end"};
         if (!has_header)
             return Error{ErrorCode::InvalidFile,
                          path_ + ": is empty; its first line names the columns: " + std::string(kAccepted)};

@@ -2,14 +2,13 @@
 
 #include "petzval/look_json.h"
 
+#include "base/whole_file.h"
 #include "files/output_file.h"
 #include "optics/lens_text.h"
 
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 namespace petzval {
 namespace {
@@ -56,13 +55,10 @@ Result<Look> read_look(const std::string& path) {
     const auto kind = fs::status(path, missing).type();
     if (kind != fs::file_type::regular && kind != fs::file_type::not_found)
         return not_read(path, "is not a regular file; pipes and devices cannot be read");
-    std::ifstream in(path, std::ios::binary);
-    if (!in) return not_read(path, "cannot be read");
-    if (const auto bytes = fs::file_size(path, missing); !missing && bytes > kMostBytes)
-        return not_read(path, "is no look: more than a megabyte");
-    const std::string text{std::istreambuf_iterator<char>(in), {}};
-    if (in.bad()) return not_read(path, "cannot be read to its end");
-    auto look = look_from_json(text);
+    const auto text = text_of_file(path, kMostBytes);
+    if (!text) return text.error();
+    if (text->size() > kMostBytes) return not_read(path, "is no look: more than a megabyte");
+    auto look = look_from_json(*text);
     if (!look) return not_read(path, look.error().message);
     const fs::path folder = fs::path(path).parent_path();
     change_files(*look, folder, [&](const std::string& file) { return (folder / file).string(); });

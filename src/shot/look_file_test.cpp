@@ -76,7 +76,7 @@ TEST_F(LookFile, ALensFileBesideItIsNoLensThatShips) {
 }
 
 TEST_F(LookFile, WhatIsNoLookIsRefusedWithItsPath) {
-    EXPECT_EQ(refusal("none.json"), "none.json: cannot be read");
+    EXPECT_EQ(refusal("none.json"), "none.json: cannot be read: No such file or directory");
     EXPECT_EQ(refusal("looks").find("looks: is not a regular file"), 0u);
     EXPECT_EQ(refusal("/dev/zero").find("/dev/zero: is not a regular file"), 0u);
     EXPECT_EQ(refusal("lenses/mine.json").find("lenses/mine.json: is no look"), 0u);

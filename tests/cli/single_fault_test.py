@@ -57,6 +57,9 @@ class SingleFault(CommandLineTest):
                 where = f"{' '.join(command)}, {kind} {call} of {count}\n{outcome}"
                 self.assertIn(outcome.code, codes, where)
                 left = self.outputs()
+                if kind == "read" and outcome.code != 0:  # a farm tries again, and a user knows what to look at
+                    self.assertIn(": cannot be read: Input/output error", outcome.err, where)
+                    self.assertRegex(outcome.err, r"in\.000[12]\.exr: cannot", where)
                 if outcome.code == 0:
                     self.assertEqual(left, right, where)
                 else:
@@ -71,7 +74,7 @@ class SingleFault(CommandLineTest):
         self.check("write", (0, 1, 6))
 
     def test_a_read(self):
-        self.check("read", (0, 1, 3, 4))
+        self.check("read", (0, 1))
 
 
 if __name__ == "__main__":

@@ -255,7 +255,7 @@ Result<DeepPicture> read_deep(const ExrFile& exr, const ColourChoice& colour, co
                               const ReadOptions& options, std::size_t& non_finite) {
     DeepPicture deep;
     if (Status s = exr.check_complete(colour.part); !s) return s.error();
-    const Status read = guarded(exr.file->path(), [&]() -> Status {
+    const Status read = guarded(*exr.file, [&]() -> Status {
         Result<DeepPicture> all = DeepReader(exr, colour, depth).read(options);
         if (!all) return all.error();
         deep = std::move(*all);

@@ -109,21 +109,7 @@ std::vector<double> values_of(const Imf::Attribute& a) {
     return {};
 }
 
-}  // namespace
-
-std::vector<NumericAttribute> numeric_attributes(const Imf::Header& header) {
-    std::vector<NumericAttribute> numbers;
-    for (auto a = header.begin(); a != header.end(); ++a)
-        if (auto values = values_of(a.attribute()); !values.empty()) numbers.push_back({a.name(), values});
-    return numbers;
-}
-
-std::string compression_name(int compression) {
-    constexpr std::array names{"none", "rle", "zips", "zip", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"};
-    return compression >= 0 && compression < int(names.size()) ? names[std::size_t(compression)] : "unknown";
-}
-
-Status guarded(const std::string& path, const std::function<Status()>& body) {
+Status caught(const std::string& path, const std::function<Status()>& body) {
     try {
         return body();
     } catch (const Cancelled&) {
@@ -148,6 +134,27 @@ Status guarded(const std::string& path, const std::function<Status()>& body) {
     }
 }
 
+}  // namespace
+
+std::vector<NumericAttribute> numeric_attributes(const Imf::Header& header) {
+    std::vector<NumericAttribute> numbers;
+    for (auto a = header.begin(); a != header.end(); ++a)
+        if (auto values = values_of(a.attribute()); !values.empty()) numbers.push_back({a.name(), values});
+    return numbers;
+}
+
+std::string compression_name(int compression) {
+    constexpr std::array names{"none", "rle", "zips", "zip", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"};
+    return compression >= 0 && compression < int(names.size()) ? names[std::size_t(compression)] : "unknown";
+}
+
+Status guarded(const InputFile& file, const std::function<Status()>& body) {
+    const Status done = caught(file.path(), body);
+    if (done || done.error().code == ErrorCode::OutOfMemory) return done;
+    const auto failure = file.failure();
+    return failure ? *failure : done;
+}
+
 int exr_threads(const Workers& workers) {
     static std::mutex mutex;
     static int given = 0;
@@ -167,7 +174,7 @@ Result<ExrFile> ExrFile::open(std::shared_ptr<const InputFile> file, std::size_t
         return invalid_file(path, *reason);
     exr.workers = &workers;
     exr.file = file;
-    const Status opened = guarded(path, [&]() -> Status {
+    const Status opened = guarded(*file, [&]() -> Status {
         exr.stream = std::make_unique<ExrInputStream>(file, workers);
         // A file whose table of chunks is unfinished is still being written or was cut off: no
         // reconstruction.

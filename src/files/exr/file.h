@@ -34,8 +34,9 @@ struct ExrFile {
 std::vector<NumericAttribute> numeric_attributes(const Imf::Header& header);
 std::string compression_name(int compression);
 
-// Runs `body`, turning everything OpenEXR may throw into InvalidFile for `path`. Lets Cancelled through.
-Status guarded(const std::string& path, const std::function<Status()>& body);
+// Runs `body`, which reads `file`, turning everything OpenEXR may throw into InvalidFile. Lets Cancelled
+// through. Whatever failed because the system did not read the file is ReadFailed.
+Status guarded(const InputFile& file, const std::function<Status()>& body);
 
 // Number of OpenEXR threads that may work on one file beside as many workers; 0: the calling thread reads or
 // writes. OpenEXR's pool is global and starts empty: it gets as many threads as the widest workers so far,

@@ -28,7 +28,7 @@ Status read_luminance_chroma(const ExrFile& exr, const ColourChoice& choice, Pic
                      printable(exr.file->path(), 4096) +
                          ": luminance and chroma (Y RY BY) can be read from the first part "
                          "only; convert it to RGB"};
-    return guarded(exr.file->path(), [&]() -> Status {
+    return guarded(*exr.file, [&]() -> Status {
         if (Status s = FlatChunks(exr, 0).check(); !s) return s;
         ExrInputStream stream(exr.file, *exr.workers);
         const std::string& y = choice.luminance;
@@ -92,7 +92,7 @@ Status unpacked_floats(const Part& part, FlatChunks& chunks, const std::vector<F
 
 Status read_floats(const ExrFile& exr, std::size_t part, const std::vector<FloatTarget>& targets) {
     if (Status s = exr.check_complete(part); !s) return s;
-    return guarded(exr.file->path(), [&]() -> Status {
+    return guarded(*exr.file, [&]() -> Status {
         const Rect window = exr.layout.parts[part].data_window;
         {
             FlatChunks chunks(exr, part);

@@ -97,7 +97,7 @@ public:
 private:
     void read(int y0, int y1) {
         resize_band(staged_, in_.width(), y1 - y0);
-        const Status read = guarded(exr_.file->path(), [&] {
+        const Status read = guarded(*exr_.file, [&] {
             if (!chunks_ && !input_) chunks_.emplace(exr_, part_);
             if (chunks_ && chunks_->can_be_unpacked()) return read_unpacked(y0, y1);
             if (chunks_) chunks_.reset(), input_.emplace(*exr_.parts, int(part_));
@@ -286,7 +286,7 @@ void write_parts(Imf::OStream& stream, ExrFile& exr, const Plan& plan,
         const auto out = plan.parts.find(std::size_t(source[p]));
         if (out == plan.parts.end()) {
             // An error here is the input's: the output reports its own errors (exr_write/output.h).
-            const Status copied = guarded(exr.file->path(), [&] {
+            const Status copied = guarded(*exr.file, [&] {
                 copy_part(*exr.parts, source[p], *output, int(p));
                 return Status(Done{});
             });

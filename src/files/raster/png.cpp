@@ -3,6 +3,7 @@
 #include "petzval/files.h"
 
 #include "base/cancel.h"
+#include "files/exr/file.h"
 #include "files/output_file.h"
 #include "files/raster/raster.h"
 #include "files/wording.h"
@@ -248,11 +249,12 @@ Result<std::string> text_of_png(const InputFile& file, const std::string& key) {
 Result<PngPixels> read_png(const std::string& path, std::size_t max_pixels) {
     const auto file = InputFile::open(path);
     if (!file) return file.error();
-    try {
-        return read(**file, max_pixels, true);
-    } catch (const std::bad_alloc&) {
-        return Error{ErrorCode::OutOfMemory, printable(path, 4096) + ": does not fit into memory"};
-    }
+    Result<PngPixels> pixels = PngPixels();
+    const Status sound = guarded(**file, [&]() -> Status {
+        pixels = read(**file, max_pixels, true);
+        return pixels ? Status(Done{}) : pixels.error();
+    });
+    return sound ? std::move(pixels) : Result<PngPixels>(sound.error());
 }
 
 Status write_png(const std::string& path, const PngPixels& p, bool overwrite) {
