@@ -17,7 +17,8 @@ struct petzval_pass {
     // size of pixels.
     petzval::Lens lens;
     petzval::Camera camera;
-    std::mutex mutex = {};  // of the lens, its camera and the size
+    petzval::Quality quality = petzval::Quality::Standard;
+    std::mutex mutex = {};  // of the lens, its camera, the quality and the size
 };
 
 namespace {
@@ -54,13 +55,13 @@ Result<RealtimeSettings> settings_of(const petzval_pass_settings& given) {
     return settings;
 }
 
-petzval_status set_lens(petzval_pass& pass, const Lens& lens, const Camera& camera) {
+petzval_status set_lens(petzval_pass& pass, const Lens& lens, const Camera& camera, Quality quality) {
     const std::lock_guard lock(pass.mutex);
     const RealtimeSettings& settings = pass.host->settings();
     const auto mounted = kernel::make_lens(lens, {camera, int(settings.width), int(settings.height)});
     if (!mounted) return fail(mounted.error());
-    pass.host->set_lens(**mounted);
-    pass.lens = lens, pass.camera = camera;
+    pass.host->set_lens(**mounted, quality);
+    pass.lens = lens, pass.camera = camera, pass.quality = quality;
     return PETZVAL_OK;
 }
 
@@ -69,7 +70,7 @@ petzval_status resize(petzval_pass& pass, std::uint32_t width, std::uint32_t hei
     const std::lock_guard lock(pass.mutex);
     const auto mounted = kernel::make_lens(pass.lens, {pass.camera, int(width), int(height)});
     if (!mounted) return fail(mounted.error());
-    const Status done = pass.host->resize(width, height, **mounted);
+    const Status done = pass.host->resize(width, height, **mounted, pass.quality);
     return done ? PETZVAL_OK : fail(done.error());
 }
 
@@ -121,7 +122,7 @@ petzval_status petzval_pass_open(const petzval_pass_settings* given, petzval_pas
         const auto lens = Lens::open({});
         if (!lens) return fail(lens.error());
         std::unique_ptr<petzval_pass> made(new petzval_pass{std::move(*host), *lens, camera});
-        const petzval_status status = set_lens(*made, *lens, camera);
+        const petzval_status status = set_lens(*made, *lens, camera, Quality::Standard);
         if (status == PETZVAL_OK) *pass = made.release();
         return status;
     });
@@ -143,7 +144,7 @@ petzval_status petzval_pass_set_lens(petzval_pass* pass, const petzval_look* loo
         if (const Status ok = c::check_pictures(look->look); !ok) return fail(ok.error());
         const auto lens = c::lens_of(*look);
         if (!lens) return fail(lens.error());
-        return set_lens(*pass, *lens, c::camera_of(c::taken(camera)));
+        return set_lens(*pass, *lens, c::camera_of(c::taken(camera)), look->look.quality);
     });
 }
 

@@ -51,8 +51,7 @@ Rules rules_of_engines() {
     return {
         {{"quality"},
          [](const Look& l) {
-             return unless(l.engine != "gaussian" && l.engine != "realtime" && l.engine != "reference" &&
-                               !is_published_stage(l),
+             return unless(l.engine != "gaussian" && l.engine != "reference" && !is_published_stage(l),
                            l.engine == "gather" ? std::string("with gather.stage ") + name_of(l.gather.stage)
                                                 : with_engine(l));
          }},

@@ -245,6 +245,18 @@ Floats laid_over(const Floats& layer, const Floats& below) {
     return all;
 }
 
+TEST_F(EmbeddedPass, TheQualityOfALookIsThatOfItsFrames) {
+    const Pass pass = open(kSize);
+    Stage stage(host_, scene_of(kSize));
+    const Floats standard = stage.drawn(pass.get());
+    for (const char* quality : {"draft", "final"}) {
+        set(pass.get(), look_with("quality", quality));
+        const Floats made = stage.drawn(pass.get());
+        EXPECT_GT(largest_difference(made, standard), 0) << quality;
+        EXPECT_GT(difference_db(made, standard), 30) << quality;
+    }
+}
+
 TEST_F(EmbeddedPass, ResizedItIsAsOpenedAtThatSize) {
     const Look lens = look_with("lens.blades", "5");
     const Pass fresh = open(kSize), resized = open({64, 80});

@@ -11,18 +11,17 @@ using kernel::PointSpread;
 constexpr int kSide = 64;                           // cells of a shape
 constexpr float kHalf = float(LampKernels::kHalf);  // half its side, in radii
 
-// A spiral: each tap stands for as much of the disc, and none lie on rings. Cells are read a little finer
-// than taps are apart, because their means would soften the disc's rim.
+// A spiral whose turns are as far apart as its taps: each tap stands for as much of the disc, and none have
+// the same radius. The four sets are its turns by a quarter, so together they have four arms and an even rim.
+// Cells are read a little finer than taps are apart, because their means would soften the disc's rim.
 void add_taps(int taps, std::vector<Rgba>& fours) {
-    const double finer = taps > 64 ? 0.8 : 0.6;
-    const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
-    fours.push_back({float(taps), float(finer * std::sqrt(std::numbers::pi / taps)), 0, 0});
+    constexpr double kFiner = 0.75;
+    fours.push_back({float(taps), float(kFiner * std::sqrt(std::numbers::pi / taps)), 0, 0});
     for (int set = 0; set < RealtimeLens::kSets; ++set)
         for (int i = 0; i < RealtimeLens::kMostTaps; ++i) {
-            const double area =
-                i == 0 || i >= taps ? 0 : i + 0.25 * set - 0.375;  // the first is for tiny discs
-            const double r = std::sqrt(area / (taps - 0.5)),
-                         angle = golden * i + 0.5 * std::numbers::pi * set;
+            const double area = i == 0 || i >= taps ? 0 : i + 0.5;  // the first is for tiny discs
+            const double r = std::sqrt(area / taps),
+                         angle = 2 * std::numbers::pi * (std::sqrt(area / 3) + 0.25 * set);
             fours.push_back({float(r * std::cos(angle)), float(r * std::sin(angle)), float(r),
                              float(std::exp2(-8 * r * r))});
         }
@@ -116,7 +115,16 @@ void add_weights(const std::vector<Rgba>& shape, std::vector<Rgba>& fours) {
 
 }  // namespace
 
-int realtime_taps(Quality quality) { return quality == Quality::Draft ? 48 : RealtimeLens::kMostTaps; }
+int realtime_taps(Quality quality) {
+    switch (quality) {
+        case Quality::Draft:
+            return 24;
+        case Quality::Standard:
+            return 48;
+        default:
+            return RealtimeLens::kMostTaps;
+    }
+}
 
 RealtimeLens realtime_lens(const kernel::LensModel& lens, kernel::FieldPosition field, double near_radius_px,
                            double far_radius_px, int taps) {

@@ -49,7 +49,7 @@ struct RealtimeLens {
     std::vector<Rgba> fours;  // kFours
 };
 
-// Number of taps of a quality.
+// Number of taps of a quality: 24, 48 or 127.
 int realtime_taps(Quality quality);
 // The shapes that a lens has at these radii, in pixels, in one place of the field. Requires: 1 to kMostTaps
 // taps.

@@ -9,10 +9,10 @@
 namespace petzval::device::vulkan {
 namespace {
 
-std::shared_ptr<const engine::RealtimeLens> shapes_of(const kernel::LensModel& lens) {
+std::shared_ptr<const engine::RealtimeLens> shapes_of(const kernel::LensModel& lens, Quality quality) {
     constexpr double kRadiusPx = 45;  // shapes are those of discs this large: the largest that lamps have
     return std::make_shared<const engine::RealtimeLens>(
-        engine::realtime_lens(lens, {}, kRadiusPx, kRadiusPx, engine::realtime_taps(Quality::Standard)));
+        engine::realtime_lens(lens, {}, kRadiusPx, kRadiusPx, engine::realtime_taps(quality)));
 }
 
 }  // namespace
@@ -63,16 +63,19 @@ Result<std::unique_ptr<RealtimePass>> HostPass::made(const RealtimeSettings& set
     }
 }
 
-Status HostPass::resize(std::uint32_t width, std::uint32_t height, const kernel::LensModel& lens) {
+Status HostPass::resize(std::uint32_t width, std::uint32_t height, const kernel::LensModel& lens,
+                        Quality quality) {
     RealtimeSettings settings = settings_;
     settings.width = width, settings.height = height;
     auto pass = made(settings);
     if (!pass) return pass.error();
-    (*pass)->set_lens(shapes_of(lens));
+    (*pass)->set_lens(shapes_of(lens, quality));
     pass_ = std::move(*pass), settings_ = settings;
     return Done{};
 }
 
-void HostPass::set_lens(const kernel::LensModel& lens) { pass_->set_lens(shapes_of(lens)); }
+void HostPass::set_lens(const kernel::LensModel& lens, Quality quality) {
+    pass_->set_lens(shapes_of(lens, quality));
+}
 
 }  // namespace petzval::device::vulkan

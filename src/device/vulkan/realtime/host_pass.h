@@ -2,6 +2,7 @@
 #pragma once
 
 #include "petzval/camera.h"
+#include "petzval/engine_options.h"
 #include "petzval/result.h"
 
 #include "device/vulkan/realtime/pass.h"
@@ -33,9 +34,9 @@ public:
     // Errors: Unsupported (the missing feature of the device), OutOfMemory.
     static Result<std::unique_ptr<HostPass>> open(const Host& host, const RealtimeSettings& settings);
     // With the lens that is mounted on that size. If it fails, nothing changed. Errors: as above.
-    Status resize(std::uint32_t width, std::uint32_t height, const kernel::LensModel& lens);
+    Status resize(std::uint32_t width, std::uint32_t height, const kernel::LensModel& lens, Quality quality);
     // Sets the lens, from any thread; may run beside pass().record(), not beside resize().
-    void set_lens(const kernel::LensModel& lens);
+    void set_lens(const kernel::LensModel& lens, Quality quality);
     RealtimePass& pass() { return *pass_; }
     const RealtimeSettings& settings() const { return settings_; }
 
