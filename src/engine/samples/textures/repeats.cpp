@@ -9,6 +9,7 @@ namespace petzval::engine {
 namespace {
 
 constexpr int kBeyond = 16;  // as many offsets are summed at once
+constexpr float kUnknown = -1;
 
 // Correlations by offset.
 class Correlation {
@@ -17,12 +18,12 @@ public:
         most_ = at(0, 0).count;
         least_ = completion_model.texture_pairs * most_;
     }
-    // -1 where too little is known, and beyond the farthest.
+    // kUnknown where too little is known, and beyond the farthest.
     float operator()(int x, int y) const {
         if (y < 0) x = -x, y = -y;
-        if (y > farthest_ || std::abs(x) > farthest_) return -1;
+        if (y > farthest_ || std::abs(x) > farthest_) return kUnknown;
         const Pairs& p = at(x, y);
-        return p.count < least_ ? -1 : p.alike();
+        return p.count < least_ ? kUnknown : p.alike();
     }
     // Number of pixels compared, and the mean square of their detail.
     float held() const { return most_; }
@@ -37,8 +38,10 @@ private:
     float most_, least_;
 };
 
-// Position of the maximum of a parabola through three values, the middle one the largest: -1/2…1/2.
+// Position of the maximum of a parabola through three values, the middle one the largest: -1/2…1/2. Beside an
+// unknown value it is the middle.
 float peak(float before, float here, float after) {
+    if (before == kUnknown || after == kUnknown) return 0;
     const float bend = before + after - 2 * here;
     return bend < -1e-6f ? std::clamp(0.5f * (before - after) / bend, -0.5f, 0.5f) : 0.0f;
 }
