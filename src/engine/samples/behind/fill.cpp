@@ -96,7 +96,7 @@ public:
 
 private:
     Patch patch_at(const Found& hit, Direction d) const {
-        const float near = completion_model.patch_near_px, far = completion_model.patch_far_px;
+        const float near = completion_model.patch_near_px, far = 2 * near;
         const int x = hit.x, y = hit.y;
         // Across the direction in a fixed sense, so that patches met in opposite directions can be compared.
         const bool turned = d.y < 0 || (d.y == 0 && d.x < 0);
@@ -130,15 +130,15 @@ private:
         const float unlike = difference / level + model.patch_depth * depth * depth;
         const auto across = [](const Patch& p) { return square(p[0] - p[1]) + square(p[0] - p[2]); };
         const auto along = [](const Patch& p) { return square(p[0] - p[3]) + square(p[0] - p[4]); };
-        const float plain = model.patch_plain * level;
+        const float plain = model.patch_alike * level;
         const float edge = (plain + across(at_a) + across(at_b)) / (plain + along(at_a) + along(at_b));
         return edge / (model.patch_alike + unlike * unlike);
     }
 
     // A surface mostly there is wholly there, one hardly there is not: smoothstep around one half.
     static float sharpened(float share) {
-        const float t =
-            std::clamp((share - completion_model.share_least) / completion_model.share_range, 0.0f, 1.0f);
+        const float least = completion_model.share_least;
+        const float t = std::clamp((share - least) / (1 - 2 * least), 0.0f, 1.0f);
         return t * t * (3 - 2 * t);
     }
 
@@ -235,8 +235,7 @@ private:
             const Found *a = take(k), *b = take(k + kPairs);
             // A surface seen on both sides within reach most likely continues between them, unless an edge
             // cuts one side off.
-            const CompletionModel& model = completion_model;
-            const float weight = reached(a) && reached(b) ? model.share_pair : model.share_alone;
+            const float weight = reached(a) && reached(b) ? completion_model.share_pair : 1;
             if (a) meet(*a, weight);
             if (b) meet(*b, weight);
             const float from_a = passes(a), from_b = passes(b), both = from_a * from_b;

@@ -66,8 +66,7 @@ public:
             else if (ends_[std::size_t(other)].told_by == 0)  // of a piece too short to go on by itself
                 add(ends_[i], joints[i].arc, hidden_for(ends_[i], {joints[i].arc}), outlines);
             else if (ends_[i].told_by > 0 && other > int(i))
-                add(ends_[i], joints[i].arc, joints[i].length_px + completion_model.outline_more_px,
-                    outlines);
+                add(ends_[i], joints[i].arc, joints[i].length_px + completion_model.outline_end_px, outlines);
         }
         return outlines;
     }
@@ -143,9 +142,6 @@ private:
             return {};
         std::array<PlanePoint, std::size_t(2) * kTracedPx> points;
         const auto both = of_both(a, b, to_b, points);
-        if (distance > (sure ? std::max(model.outline_longest_px, model.outline_gap * float(both.size()))
-                             : model.outline_longest_px))
-            return {};
         Arc arc;
         if (!line_or_arc(fitted_line(both, {0, 0}, to_b), fitted_arc(both, {0, 0}, to_b), arc)) return {};
         const float length = arc.along(to_b);
@@ -183,13 +179,13 @@ private:
             if (side(end, course.at(float(t) + 0.5f)) == DepthSide::Nearer) continue;
             const int hidden_again = t + shown_for(end, course, t);
             if (t == 1 && !sure && hidden_again > t + kLeastTracedPx) return 0;
-            if (hidden_again == t) return t == 1 ? 0 : float(t) + completion_model.outline_more_px;
+            if (hidden_again == t) return t == 1 ? 0 : float(t) + completion_model.outline_end_px;
             t = hidden_again;
         }
         return float(most_px);
     }
     int shown_for(const OutlineEnd& end, const Course& course, int from) const {
-        const float off = completion_model.outline_again_px;
+        const float off = completion_model.outline_end_px;
         for (int n = 0; from + n <= kFarthestPx; ++n) {
             const float along = float(from + n) + 0.5f;
             const DepthSide right = side(end, course.at(along, off)),
@@ -293,7 +289,7 @@ HiddenOutlines::Open HiddenOutlines::open(PixelAt shown, PixelAt hidden, float c
         const float sign = from_left ? 1.0f : -1.0f;
         if (sign * o.arc.right_of(to) <= 0 || sign * o.arc.right_of(from) >= 0) continue;
         const float met = from_left ? o.arc.crossed(to, from) : o.arc.crossed(from, to);
-        if (met < -model.outline_before_px || met > o.length_px) continue;
+        if (met < -model.outline_end_px || met > o.length_px) continue;
         (own ? open.within : open.unhidden) *=
             1 - std::min(1.0f, std::abs(o.arc.aside(to)) / model.barrier_soft_px);
     }

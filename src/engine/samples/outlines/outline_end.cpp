@@ -84,7 +84,7 @@ void find_arc(OutlineEnd& end) {
 
 bool tells(const FittedArc& fitted) {
     return fitted.worst_px <= completion_model.outline_off_px &&
-           fitted.mean_px <= completion_model.outline_mean_off_px;
+           fitted.mean_px <= 0.5f * completion_model.outline_off_px;
 }
 
 }  // namespace

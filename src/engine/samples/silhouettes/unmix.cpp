@@ -176,9 +176,8 @@ LampsBehind find_lamps(const LitPicture& picture, View<const float> coc, View<co
     const float sure = share_of_surface(nearer);
     far = std::max(far, completion_model.unseen_lamp * (1 - sure) * near);
     near *= sure;
-    const float t = std::clamp(
-        (far / std::max(1e-9f, near + far) - completion_model.lamp_side) / completion_model.lamp_side_width,
-        0.0f, 1.0f);
+    const float side = completion_model.lamp_side;
+    const float t = std::clamp((far / std::max(1e-9f, near + far) - side) / (1 - 2 * side), 0.0f, 1.0f);
     return {t * t * (3 - 2 * t), far_coc};
 }
 

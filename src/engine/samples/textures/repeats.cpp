@@ -77,6 +77,7 @@ float within(double value, double to) { return float(std::clamp(2 - value / to, 
 // nor of lone marks (its kurtosis is near that of a normal distribution).
 float grain_of(const Details& piece) {
     constexpr int kBlock = 6, kLeastBlocks = 4;
+    constexpr double kNormal = 3;  // kurtosis of a normal distribution
     const CompletionModel& model = completion_model;
     const int begin = piece.farthest, end = piece.farthest + piece.inner;
     double blocks = 0, means = 0, variances = 0, squares = 0, second = 0, fourth = 0;
@@ -99,9 +100,9 @@ float grain_of(const Details& piece) {
     const double kurtosis = fourth * blocks * kBlock * kBlock / (second * second);
     const double rough = means / (means + variances), uneven = blocks * squares / (variances * variances) - 1;
     return model.grain_contrast * within(rough, double(model.grain_rough) / 100) *
-           within(uneven, double(model.grain_uneven) / 100) *
-           within(kurtosis - double(model.grain_kurtosis_most) + 1, 1) *
-           float(std::clamp((kurtosis - double(model.grain_kurtosis_least)) / 0.3, 0.0, 1.0));
+           within(uneven, 2 * double(model.grain_rough) / 100) *
+           within(kurtosis - kNormal - double(model.grain_kurtosis) + 1, 1) *
+           float(std::clamp((kurtosis - kNormal + double(model.grain_kurtosis)) / 0.3, 0.0, 1.0));
 }
 
 }  // namespace
