@@ -5,9 +5,10 @@ Usage: tools/lens_export.py LENS.json OUT.osl|OUT.dat [FOCAL_MM F_NUMBER FOCUS_M
 
 The three numbers are needed for OSL: the lens is scaled to the focal length, its iris set to the f-number, and its
 sensor moved to the paraxial focus of a point so far from the entrance pupil. The picture spans what Blender's own
-camera of that focal length shows at that distance. Spherical surfaces with nd and Vd only; others are refused.
+camera of that focal length shows at that distance; its middle has that camera's brightness, its corners the lens's. Spherical surfaces with nd and Vd only; others are refused.
 """
 import json
+import math
 import pathlib
 import sys
 
@@ -84,6 +85,16 @@ def pbrt(surfaces, title):
 
 def osl(surfaces, title, focal_mm, f_number, focus_m):
     """Source of a camera shader for Cycles."""
+    numbers, columns = camera(surfaces, focal_mm, f_number, focus_m)
+    text = f"/* {title}: {focal_mm:g} mm f/{f_number:g}, focus {focus_m:g} m. Lengths in mm. */\n"
+    text += "".join(f"#define {name} {value:.9g}\n" for name, value in numbers.items())
+    arrays = "".join(f"  float {name}[COUNT] = {{{', '.join(f'{v:.9g}' for v in values)}}};\n"
+                     for name, values in columns.items())
+    return text + SHADER.replace("ARRAYS\n", arrays).replace("RED_GREEN_BLUE", "%g, %g, %g" % CHANNELS_UM)
+
+
+def camera(surfaces, focal_mm, f_number, focus_m):
+    """Numbers of the shader, and columns of the surfaces from the sensor outwards; z grows towards the scene."""
     scale = focal_mm / first_order(surfaces)[0]
     surfaces = [(r * scale, t * scale, nd, b, semi * scale, stop) for r, t, nd, b, semi, stop in surfaces]
     focal, entrance, radius, exit_at, exit_radius = first_order(surfaces)
@@ -98,18 +109,66 @@ def osl(surfaces, title, focal_mm, f_number, focus_m):
     height, slope = traced(surfaces, -entrance, 1)[-1]
     places = [sum(s[1] for s in surfaces[i:-1]) for i in range(len(surfaces))]
     rows = list(zip(surfaces, places))[::-1]
+    pupil_radius = exit_radius * closed * PUPIL_ROOM
     columns = {"radius": [s[0] for s, _ in rows], "place": [z for _, z in rows],
                "clear": [s[4] * (closed if s[5] else 1) for s, _ in rows],
                "nd": [([1.0] + [s[2] for s in surfaces])[i] for i in reversed(range(len(surfaces)))],
                "cauchy": [([0.0] + [s[3] for s in surfaces])[i] for i in reversed(range(len(surfaces)))]}
     numbers = {"COUNT": len(rows), "FOCAL": focal, "APERTURE": 1 / (2 * f_number), "SENSOR": -sensor_at,
                "SPAN": height + slope * sensor_at, "PUPIL": -exit_at, "ENTRANCE": places[0] - entrance,
-               "PUPIL_RADIUS": exit_radius * closed * PUPIL_ROOM, "GAIN": 3 * PUPIL_ROOM ** 2}
-    text = f"/* {title}: {focal_mm:g} mm f/{f_number:g}, focus {focus_m:g} m. Lengths in mm. */\n"
-    text += "".join(f"#define {name} {value:.9g}\n" for name, value in numbers.items())
-    arrays = "".join(f"  float {name}[COUNT] = {{{', '.join(f'{v:.9g}' for v in values)}}};\n"
-                     for name, values in columns.items())
-    return text + SHADER.replace("ARRAYS\n", arrays).replace("RED_GREEN_BLUE", "%g, %g, %g" % CHANNELS_UM)
+               "PUPIL_RADIUS": pupil_radius,
+               "GAIN": 3 / axial_light(columns, -sensor_at, -exit_at, pupil_radius)}
+    return numbers, columns
+
+
+def axial_light(columns, sensor_z, pupil_z, pupil_radius, rings=2000):
+    """Of light from the sensor's middle to the pupil's disc, the share that leaves the lens, weighted as by the shader."""
+    passed = 0.0
+    for ring in range(rings):
+        along, weight = aimed((0, 0, sensor_z), (0, (ring + 0.5) / rings * pupil_radius, pupil_z))
+        if leaves(columns, (0, 0, sensor_z), along):
+            passed += (2 * ring + 1) / rings ** 2 * weight
+    return passed
+
+
+def aimed(at, to):
+    """The direction between two points, and cos^4 of its angle to the axis."""
+    way = [b - a for a, b in zip(at, to)]
+    length = math.hypot(*way)
+    return tuple(w / length for w in way), (way[2] / length) ** 4
+
+
+def leaves(columns, at, along):
+    """True if a ray from the sensor passes all surfaces, by the rules of the shader, at the d line."""
+    index = 1.0
+    for radius, place, clear, nd in zip(*(columns[name] for name in ("radius", "place", "clear", "nd"))):
+        middle = (0, 0, place - radius)
+        if radius:
+            off = [a - m for a, m in zip(at, middle)]
+            half = _dot(off, along)
+            square = half * half - _dot(off, off) + radius * radius
+            if square < 0:
+                return False
+            far = math.copysign(math.sqrt(square), radius) - half
+        else:
+            far = (place - at[2]) / along[2]
+        at = tuple(a + far * w for a, w in zip(at, along))
+        if at[0] ** 2 + at[1] ** 2 > clear ** 2:
+            return False
+        facing = [(a - m) / radius for a, m in zip(at, middle)] if radius else (0, 0, -1)
+        cosine, ratio = abs(_dot(facing, along)), index / nd
+        if _dot(facing, along) > 0:
+            facing = [-f for f in facing]
+        under = 1 - ratio * ratio * (1 - cosine * cosine)
+        if under < 0:
+            return False
+        along = tuple(ratio * w + (ratio * cosine - math.sqrt(under)) * f for w, f in zip(along, facing))
+        index = nd
+    return True
+
+
+def _dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
 
 
 SHADER = """
@@ -127,7 +186,7 @@ ARRAYS
   float per_um2 = 1 / pow(wavelengths[channel], 2) - 1 / pow(0.5875618, 2);
   point at = point(-seen[0] * sensor[0] * SPAN / FOCAL, -seen[1] * sensor[1] * SPAN / FOCAL, SENSOR);
   vector along = normalize(point(pupil[0] / APERTURE * PUPIL_RADIUS, pupil[1] / APERTURE * PUPIL_RADIUS, PUPIL) - at);
-  float from = 1;
+  float from = 1, aslant = pow(along[2], 4); /* the pupil seen from there, and the sensor lit aslant */
   for (int i = 0; i < COUNT; i++) {
     vector facing = vector(0, 0, -1);
     if (radius[i] == 0) {
@@ -151,7 +210,7 @@ ARRAYS
   }
   position = (at - point(0, 0, ENTRANCE)) * 0.001;
   direction = along;
-  throughput = GAIN * color(channel == 0, channel == 1, channel == 2);
+  throughput = GAIN * aslant * color(channel == 0, channel == 1, channel == 2);
 }
 """
 

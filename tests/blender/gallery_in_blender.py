@@ -145,7 +145,7 @@ def traced():
     data = scene.camera.data
     data.dof.aperture_fstop = 2.1
     look = installed.part("library").petzval.Look(lens="double-gauss")
-    look["lens.focus_mode"] = "paraxial"
+    look["lens.focus_mode"], look["glare.vignetting"] = "paraxial", True
     scene.petzval_lens.look_file = os.path.join(FOLDER, "look.json")
     pathlib.Path(scene.petzval_lens.look_file).write_text(look.to_json())
     mine = ours(scene, 32)

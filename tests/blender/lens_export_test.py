@@ -11,8 +11,9 @@ import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
+sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tests/cli")]
 import lens_export  # noqa: E402
+from pictures import camera_attributes, exr_bytes, read_exr  # noqa: E402
 
 petzval = ""
 
@@ -50,6 +51,32 @@ class Export(unittest.TestCase):
         for name in ("radius", "place", "clear", "nd", "cauchy"):
             values = re.search(rf"float {name}\[COUNT\] = {{(.*)}};", text)[1]
             self.assertEqual(len(values.split(",")), 11, name)
+
+    def test_the_exported_camera_darkens_corners_as_petzval_does(self):
+        """Light of a white scene at places of the frame: rays of the exported surfaces beside petzval --vignetting."""
+        width, height = 160, 90
+        channels = {c: [[1.0] * width] * height for c in "RGBA"} | {"Z": [[5.0] * width] * height}
+        white, seen = self.folder / "white.exr", self.folder / "seen.exr"
+        white.write_bytes(exr_bytes(channels, attributes=camera_attributes(50, 36, 2.1, 1.2)))
+        subprocess.run([petzval, "defocus", white, "-o", seen, "--lens", "double-gauss", "--vignetting"], check=True, capture_output=True)
+        ours = read_exr(seen)[0]["G"]
+        numbers, columns = lens_export.camera(lens_export.read(ROOT / "lenses/double-gauss.json"), 50, 2.1, 1.2)
+        for part in (0, 0.25, 0.5, 0.75, 0.95):
+            x, y = part * 18, part * 18 * height / width
+            at = (-x * numbers["SPAN"] / 50, -y * numbers["SPAN"] / 50, numbers["SENSOR"])
+            theirs = self.light(numbers, columns, at)
+            self.assertAlmostEqual(theirs, ours[int(height / 2 * (1 + part))][int(width / 2 * (1 + part))], delta=0.03, msg=part)
+
+    def light(self, numbers, columns, at, across=48):
+        total, count = 0, 0
+        for i in range(across * across):
+            u, v = ((2 * k + 1) / across - 1 for k in divmod(i, across))
+            if u * u + v * v < 1:
+                radius = numbers["PUPIL_RADIUS"]
+                along, weight = lens_export.aimed(at, (u * radius, v * radius, numbers["PUPIL"]))
+                total += weight * lens_export.leaves(columns, at, along)
+                count += 1
+        return numbers["GAIN"] / 3 * total / count
 
     def test_wrong_input_is_refused_in_one_sentence(self):
         surfaces = lens_export.read(ROOT / "lenses/double-gauss.json")
