@@ -1,11 +1,12 @@
 #include "petzval/lens_kernel.h"
 
-#include "petzval/lens_facts.h"
-
 #include "base/cancel.h"
 #include "base/parallel.h"
+#include "kernel/lenses/aberration_curves.h"
 #include "kernel/lenses/geometric_lens.h"
 #include "kernel/lenses/make_lens.h"
+#include "kernel/lenses/opened_lens.h"
+#include "optics/paraxial.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,7 @@
 namespace petzval {
 namespace {
 
-using Model = std::unique_ptr<const kernel::LensModel>;
+using Model = std::shared_ptr<const kernel::LensModel>;
 
 Error refuse(const std::string& message) { return {ErrorCode::InvalidArgument, message}; }
 
@@ -21,7 +22,7 @@ Result<Model> mounted(const Lens& lens, const LensMount& mount) {
     if (mount.width_px <= 0 || mount.height_px <= 0 ||
         !(mount.pixel_aspect > 0.01 && mount.pixel_aspect < 100))
         return refuse("the picture's width, height and pixel aspect must be above 0");
-    return kernel::make_lens(lens, {mount.camera, mount.width_px, mount.height_px, mount.pixel_aspect});
+    return kernel::model_on(lens, {mount.camera, mount.width_px, mount.height_px, mount.pixel_aspect});
 }
 
 constexpr int kBorderPx = 2;  // pixels that a disc touches beyond its farthest ray
@@ -155,12 +156,23 @@ Result<std::vector<LensDisc>> lens_point_spreads(const Lens& opened, const LensM
 Result<Camera> own_camera(const Lens& lens) {
     Camera camera{.focal_length_mm = 50, .sensor_width_mm = 36, .f_number = 2, .focus_distance_m = 0};
     if (lens.kind() == LensModelKind::Ideal) return camera;
-    const auto facts = lens_facts(lens);
-    if (!facts) return facts.error();
-    if (facts->efl_mm > 0) camera.focal_length_mm = facts->efl_mm;
-    if (facts->sensor_width_mm > 0) camera.sensor_width_mm = facts->sensor_width_mm;
+    double focal_length_mm = 0, sensor_width_mm = 0, f_number = 0;
+    if (const auto* curves = kernel::curves_of(lens)) {
+        focal_length_mm = curves->focal_length_mm;
+        sensor_width_mm = curves->sensor_width_mm;
+        f_number = curves->f_number;
+    } else {
+        const optics::Prescription& surfaces = *kernel::prescription_of(lens);
+        const auto first = optics::first_order(surfaces, surfaces.primary_um);
+        if (!first) return Error{ErrorCode::InvalidFile, lens.name() + ": " + first.error().message};
+        focal_length_mm = first->focal_length_mm;
+        sensor_width_mm = optics::format_width_mm(surfaces, *first);
+        f_number = first->f_number;
+    }
+    if (focal_length_mm > 0) camera.focal_length_mm = focal_length_mm;
+    if (sensor_width_mm > 0) camera.sensor_width_mm = sensor_width_mm;
     // Rounded up, so that the lens has it.
-    if (facts->f_number > 0) camera.f_number = facts->f_number * (1 + 1e-9);
+    if (f_number > 0) camera.f_number = f_number * (1 + 1e-9);
     return camera;
 }
 

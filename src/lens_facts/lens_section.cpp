@@ -180,15 +180,19 @@ Result<LensSection> lens_section(const Lens& opened, const LensMount& mount, dou
     LensChoice choice = opened.choice();
     if (choice.kernel_images.far || choice.kernel_images.near)
         return refuse("lens.kernel_image: a picture of a disc has no rays");
-    choice.wave = false;
-    const auto lens = opened.with(choice);
-    if (!lens) return lens.error();
+    Lens lens = opened;
+    if (choice.wave) {
+        choice.wave = false;
+        auto without = opened.with(choice);
+        if (!without) return without.error();
+        lens = std::move(*without);
+    }
     Camera camera = mount.camera;
     if (camera.focus_distance_m == 0) camera.focus_distance_m = std::numeric_limits<double>::infinity();
     const auto coc = CircleOfConfusion::make(camera, mount.width_px);
     if (!coc) return coc.error();
     const auto model =
-        kernel::make_lens(*lens, {mount.camera, mount.width_px, mount.height_px, mount.pixel_aspect});
+        kernel::model_on(lens, {mount.camera, mount.width_px, mount.height_px, mount.pixel_aspect});
     if (!model) return model.error();
     const auto* of_rays = dynamic_cast<const kernel::GeometricLens*>(model->get());
     if (!of_rays) return refuse("lens.name: this lens has no rays");
@@ -200,7 +204,7 @@ Result<LensSection> lens_section(const Lens& opened, const LensMount& mount, dou
     const double slope = axis.size * corner_mm / mount.camera.focal_length_mm;
     const double lead_mm = 0.5 * mount.camera.focal_length_mm;
     auto rays = landed_rays(*of_rays, coc->radius_px(depth_m), field, rays_across);
-    const optics::Prescription* prescription = kernel::prescription_of(*lens);
+    const optics::Prescription* prescription = kernel::prescription_of(lens);
     if (!prescription) return thin_section(std::move(rays), mount, slope, 1000 * depth_m, lead_mm, axis);
     const auto tracer = Tracer::make(*prescription, mount.camera);
     if (!tracer) return tracer.error();

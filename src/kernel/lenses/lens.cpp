@@ -210,6 +210,7 @@ Result<Lens> Lens::with(const LensChoice& choice) const {
     contents.choice.name = name();
     if (const Status status = check(contents.choice, kind()); !status) return status.error();
     contents.key = key_of(contents.choice, *contents.file);
+    contents.last_mount = std::make_shared<kernel::LastMount>();
     return Lens(std::make_shared<const Contents>(std::move(contents)));
 }
 

@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <mutex>
 
 namespace petzval::kernel {
 namespace {
@@ -33,6 +35,16 @@ Status check_camera(const Mount& mount) {
     if (!(camera.f_number > 0))
         return refuse_field("camera.f_number", "this lens needs an f-number (camera.f_number) above 0");
     return Done{};
+}
+
+// The same camera and the same shape of the picture, on pixels of any size.
+bool is_same_frame(const Mount& a, const Mount& b) {
+    const auto same = [&](auto Camera::*number) { return a.camera.*number == b.camera.*number; };
+    return same(&Camera::focal_length_mm) && same(&Camera::sensor_width_mm) && same(&Camera::f_number) &&
+           same(&Camera::focus_distance_m) && same(&Camera::image_scale) &&
+           a.pixel_aspect == b.pixel_aspect &&
+           std::int64_t(a.display_width_px) * b.display_height_px ==
+               std::int64_t(b.display_width_px) * a.display_height_px;
 }
 
 Result<RayModel> ray_model(const Lens& lens, const Mount& mount) {
@@ -68,6 +80,24 @@ Result<Model> make_lens(const LensChoice& choice, const Mount& mount) {
     const auto lens = Lens::open(choice);
     if (!lens) return lens.error();
     return make_lens(*lens, mount);
+}
+
+Result<std::shared_ptr<const LensModel>> model_on(const Lens& lens, const Mount& mount) {
+    LastMount& last = *lens.contents().last_mount;
+    std::unique_lock lock(last.mutex);
+    const std::shared_ptr<const LensModel> known = is_same_frame(last.mount, mount) ? last.model : nullptr;
+    const bool same_pixels = last.mount.display_width_px == mount.display_width_px;
+    lock.unlock();  // others need not wait while this one is made
+    if (known && same_pixels) return known;
+    std::shared_ptr<const LensModel> model = known ? known->on_pixels(mount) : nullptr;
+    if (model) return model;
+    auto made = make_lens(lens, mount);
+    if (!made) return made.error();
+    model = std::move(*made);
+    lock.lock();
+    last.mount = mount;
+    last.model = model;
+    return model;
 }
 
 Result<std::vector<Model>> make_lens_levels(const Lens& lens, const Mount& mount, int count) {

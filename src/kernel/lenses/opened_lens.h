@@ -7,9 +7,19 @@
 #include "lens_files/lens_file.h"
 
 #include <memory>
+#include <mutex>
 #include <string>
 
 namespace petzval {
+
+namespace kernel {
+// The last camera that a lens was mounted on; see model_on().
+struct LastMount {
+    std::mutex mutex;
+    Mount mount;
+    std::shared_ptr<const LensModel> model;
+};
+}  // namespace kernel
 
 struct Lens::Contents {
     LensChoice choice;
@@ -18,6 +28,7 @@ struct Lens::Contents {
     // whose curves are straight, it holds the curves alone.
     std::shared_ptr<const lens_files::LensFile> file;
     std::string key;
+    std::shared_ptr<kernel::LastMount> last_mount;  // never null; of this choice alone
 };
 
 namespace kernel {

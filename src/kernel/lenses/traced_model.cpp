@@ -128,12 +128,9 @@ Result<std::unique_ptr<const GeometricLens>> TracedModel::make(const optics::Pre
 // Rays are kept in millimetres.
 std::unique_ptr<const LensModel> TracedModel::on_pixels(const Mount& mount) const {
     auto same = std::make_unique<TracedModel>(*this);
-    const double factor = mount.display_width_px / mount.camera.sensor_width_mm / px_per_mm_;
     same->mount_.display_width_px = mount.display_width_px;
     same->mount_.display_height_px = mount.display_height_px;
-    same->px_per_mm_ *= factor;
-    same->reach_offset_px_ *= factor;
-    same->coc_at_infinity_px_ *= factor;
+    same->px_per_mm_ = mount.display_width_px / mount.camera.sensor_width_mm;
     return same;
 }
 
@@ -186,7 +183,7 @@ void TracedModel::place_near_object(const optics::TracedLens& lens) {
     const double pupil_mm = mount_.camera.focal_length_mm / (2 * lens.f_number());
     const double per_vergence = pupil_mm * pupil_mm / image_slope_;
     const double in_focus = mount_.camera.focus_distance_m > 0 ? 1e-3 / mount_.camera.focus_distance_m : 0;
-    coc_at_infinity_px_ = px_per_mm_ * per_vergence * in_focus;
+    coc_at_infinity_mm_ = per_vergence * in_focus;
     // Nothing comes nearer than the front of the lens.
     const double nearest_mm =
         std::max(0.0, lens.first_order().entrance_pupil_position_mm) + 0.5 * mount_.camera.focal_length_mm;
@@ -295,15 +292,16 @@ void TracedModel::measure() {
                 const PupilPowers powers((1 / std::max(1.0, std::hypot(corner.x, corner.y))) * corner);
                 const Point offset = map.offset_mm.at(powers), slope = map.slope.at(powers);
                 const Point per_coc = map.per_coc.at(powers);
-                reach_offset_px_ = std::max(reach_offset_px_, px_per_mm_ * std::hypot(offset.x, offset.y));
+                reach_offset_mm_ = std::max(reach_offset_mm_, std::hypot(offset.x, offset.y));
                 reach_per_coc_ = std::max({reach_per_coc_, std::hypot(slope.x, slope.y) / image_slope_,
                                            std::hypot(per_coc.x, per_coc.y)});
             }
-    reach_offset_px_ += px_per_mm_ * added_.reach();
+    reach_offset_mm_ += added_.reach();
 }
 
 double TracedModel::reach_px(double coc_radius_px) const {
-    return (reach_offset_px_ + reach_per_coc_ * std::abs(coc_radius_px)) * std::max(1.0, mount_.pixel_aspect);
+    const double reach = px_per_mm_ * reach_offset_mm_ + reach_per_coc_ * std::abs(coc_radius_px);
+    return reach * std::max(1.0, mount_.pixel_aspect);
 }
 
 TracedModel::Node TracedModel::at(double field_size) const {
@@ -334,7 +332,7 @@ RayMap TracedModel::map_at(const Node& node, double wavelength_nm) const {
 Displacement TracedModel::landing(const RayMap& map, double coc_radius_px) const {
     Displacement px;
     px.add(px_per_mm_, map.offset_mm);
-    const double of_objects_px = std::min(coc_radius_px, coc_at_infinity_px_);
+    const double of_objects_px = std::min(coc_radius_px, px_per_mm_ * coc_at_infinity_mm_);
     px.add(of_objects_px, map.per_coc);
     px.add((coc_radius_px - of_objects_px) / image_slope_, map.slope);
     return px;

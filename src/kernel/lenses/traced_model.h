@@ -85,12 +85,12 @@ private:
     ThirdOrder added_;  // mm
     double near_distance_mm_ = 0,
            near_coc_mm_ = 0;  // of the nearer object, its radius on the sensor; 0: none
-    double coc_at_infinity_px_ = 0;
+    double coc_at_infinity_mm_ = 0;
     std::vector<double> wavelength_nm_;
     std::vector<Node> nodes_;  // even steps of field size, from 0
     double node_step_ = 0;
     double largest_field_ = 0;  // of the last node; beyond it, the lens is as there
-    double reach_offset_px_ = 0, reach_per_coc_ = 1;
+    double reach_offset_mm_ = 0, reach_per_coc_ = 1;
 };
 
 }  // namespace petzval::kernel
