@@ -65,15 +65,7 @@ CutEdges::Point KnownSurfaces::behind(Place at, Direction outwards, float distan
 Rgba KnownSurfaces::going_on(Place from, Direction outwards, float distance_px) const {
     const Rgba own = wide_colour(from, outwards, distance_px);
     if (white_ <= 0) return own;
-    const CutEdges::Point hidden = behind(from, outwards, distance_px);
-    // The last pixel of a sign may be dark, between letters, or have lost its light to the occluder.
-    const Place before{from.x + nearest_pixel(outwards.x), from.y + nearest_pixel(outwards.y), from.coc_px};
-    float light = std::max(light_of(own), light_of(colour(from.x, from.y)));
-    if (shows(before.x, before.y, from.coc_px)) {
-        const float told =
-            completion_model.light_before * edges_.passes({before.x, before.y}, hidden, from.coc_px);
-        light = std::max(light, light_of((1 - told) * own + told * colour(before.x, before.y)));
-    }
+    const float light = std::max(light_of(own), light_of(colour(from.x, from.y)));
     const float falls = above(light, completion_model.light * white_);
     const Rgba dim = falls < 1 ? among_lights(own, from, outwards, distance_px) : own;
     if (falls <= 0) return dim;

@@ -38,7 +38,7 @@ public:
         return m ? m->far_colour : picture_.dim(x, y);
     }
     bool shows(int x, int y, float coc_px) const {
-        return radii_.rect().contains(x, y) && std::abs(radii_(x, y) - coc_px) < completion_model.shows_px;
+        return radii_.rect().contains(x, y) && std::abs(radii_(x, y) - coc_px) < completion_model.step_px;
     }
 
     // A pixel that shows a surface.

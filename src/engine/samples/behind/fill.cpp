@@ -27,31 +27,13 @@ using Patch = std::array<Rgba, kPatch>;
 class Votes {
 public:
     void add(Rgba colour, float coc_px, float weight) {
-        const float light = std::max(0.0f, luminance(colour));
-        votes_[std::size_t(count_++)] = {colour, coc_px, weight, light};
-        roots_ += weight * std::sqrt(light), weight_ += weight;
+        colour_ += weight * colour, coc_ += weight * coc_px, total_ += weight;
     }
-    // Their mean; but a lamp that few see does not shine all over a surface.
-    Hidden result() const {
-        const float usual = completion_model.usual_contrast * (roots_ / weight_) * (roots_ / weight_) + 1e-6f;
-        Rgba sum;
-        float coc = 0, total = 0;
-        for (const Vote& vote : std::span(votes_).first(std::size_t(count_))) {
-            const float excess = vote.light / usual;
-            const float weight = vote.weight / (1 + excess * excess);
-            sum += weight * vote.colour, coc += weight * vote.coc_px, total += weight;
-        }
-        return {sum * (1 / total), coc / total, 1};
-    }
+    Hidden mean() const { return {colour_ * (1 / total_), coc_ / total_, 1}; }
 
 private:
-    struct Vote {
-        Rgba colour;
-        float coc_px, weight, light;
-    };
-    std::array<Vote, kDirections + kDirections / 2> votes_;
-    int count_ = 0;
-    float roots_ = 0, weight_ = 0;
+    Rgba colour_;
+    float coc_ = 0, total_ = 0;
 };
 
 class Filler {
@@ -126,8 +108,7 @@ private:
             difference += square(at_a[k] - at_b[k]);
             level += square(0.5f * (at_a[k] + at_b[k]));
         }
-        const float depth = a.coc_px - b.coc_px;
-        const float unlike = difference / level + model.patch_depth * depth * depth;
+        const float unlike = difference / level;
         const auto across = [](const Patch& p) { return square(p[0] - p[1]) + square(p[0] - p[2]); };
         const auto along = [](const Patch& p) { return square(p[0] - p[3]) + square(p[0] - p[4]); };
         const float plain = model.patch_alike * level;
@@ -245,7 +226,7 @@ private:
         }
         for (auto& direction : hits)
             for (Found& f : direction) f.found = f.found && f.coc_px < nearest_px;
-        return votes.result();
+        return votes.mean();
     }
     // Adds the surfaces met in direction k and the opposite one.
     void add_pair(HiddenTextures::Point& hidden, const Found& a, const Found& b, std::size_t k, float weight,

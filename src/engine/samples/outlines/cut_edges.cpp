@@ -79,7 +79,7 @@ private:
         return radii_.rect().contains(u, v) && radii_(u, v) <= coc_px - completion_model.step_px;
     }
     bool clean(int x, int y, float coc_px) const {
-        return std::abs(radii_(x, y) - coc_px) < completion_model.shows_px && !mixtures_.at(x, y);
+        return std::abs(radii_(x, y) - coc_px) < completion_model.step_px && !mixtures_.at(x, y);
     }
     // Rows of kSide: light of the surface's clean pixels, -1 of others.
     static constexpr int kSide = 2 * kReach + 3;
@@ -163,7 +163,7 @@ float CutEdges::passes(Point shown, Point hidden, float coc_px) const {
         const float a = side(hidden), b = side(shown);
         if (a * b >= 0) continue;
         const float met = (ahead(hidden) * b - ahead(shown) * a) / (b - a);
-        if (met < -model.edge_before_px || met > model.edge_longest_px) continue;
+        if (met < -model.outline_end_px || met > model.edge_longest_px) continue;
         open *= 1 - e.strength * std::min({1.0f, std::abs(a) / model.barrier_soft_px,
                                            std::abs(b) / model.barrier_soft_px});
     }

@@ -132,20 +132,15 @@ private:
     }
     // The arc through the visible points before both ends.
     std::optional<Joint> joint_of(int i, int other) const {
-        const CompletionModel& model = completion_model;
         const OutlineEnd &a = ends_[std::size_t(i)], &b = ends_[std::size_t(other)];
         const PlanePoint to_b{float(b.at.x - a.at.x), float(b.at.y - a.at.y)};
-        const float distance = std::hypot(to_b.x, to_b.y);
         const bool sure = a.told_by > 0 && b.told_by > 0;
-        if (a.told_by > 0 &&
-            std::abs(a.arc.aside(to_b)) > model.outline_aside_px + model.outline_aside * distance)
-            return {};
         std::array<PlanePoint, std::size_t(2) * kTracedPx> points;
         const auto both = of_both(a, b, to_b, points);
         Arc arc;
         if (!line_or_arc(fitted_line(both, {0, 0}, to_b), fitted_arc(both, {0, 0}, to_b), arc)) return {};
         const float length = arc.along(to_b);
-        if (length <= 1 || std::abs(arc.curvature) * length > model.outline_turned) return {};
+        if (length <= 1) return {};
         if (hidden_for(a, {arc}, sure) < length - kLeastTracedPx) return {};
         return Joint{other, arc, length, sure};
     }

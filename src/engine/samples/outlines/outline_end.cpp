@@ -67,15 +67,14 @@ private:
 
 // The longest traced part on one line or arc decides the continuation.
 void find_arc(OutlineEnd& end) {
-    constexpr int kLeastOfArc = 14, kShort = 10;
+    constexpr int kLeastOfArc = 14;
     for (const int n : {end.traced_px, 24, 18, kLeastOfArc, 12, 8, kLeastTracedPx}) {
         if (n > end.traced_px || n < kLeastTracedPx) continue;
         const auto points = std::span(end.traced).first(std::size_t(n));
         const PlanePoint into{-points[kLeastTracedPx - 1].x, -points[kLeastTracedPx - 1].y};
         const FittedArc line = fitted_line(points, {0, 0}, into);
         end.arc = line.arc, end.told_by = n;
-        if (n < kLeastOfArc ? line.worst_px <= (n < kShort ? completion_model.outline_short_off_px
-                                                           : completion_model.outline_off_px)
+        if (n < kLeastOfArc ? line.worst_px <= completion_model.outline_off_px
                             : line_or_arc(line, fitted_arc(points, {0, 0}, into), end.arc))
             return;
     }
@@ -108,7 +107,7 @@ bool line_or_arc(const FittedArc& line, const FittedArc& arc, Arc& best) {
     const bool is_line =
         tells(line) && (line.mean_px < model.outline_line_px || line2 < model.outline_as_well * arc2);
     best = is_line ? line.arc : arc.arc;
-    return is_line || (tells(arc) && std::abs(arc.arc.curvature) * model.outline_tightest_px <= 1);
+    return is_line || tells(arc);
 }
 
 std::optional<OutlineEnd> outline_end(View<const float> coc, int x, int y) {

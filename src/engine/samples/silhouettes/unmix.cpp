@@ -220,7 +220,7 @@ Mixture taken_apart(const LitPicture& picture, View<const float> coc, View<const
     const float far_share = 1 - m.near_share;
     m.near_colour = light_only(c - far_share * m.far_colour);
     // The rest of a dark pixel is all that either surface may have.
-    if (far_share > completion_model.least_far_share) {
+    if (far_share > 0) {
         const Rgba left = light_only((c - m.near_colour) * (1 / far_share));
         m.far_colour = {left.r, left.g, left.b, far.colour.a};
     }

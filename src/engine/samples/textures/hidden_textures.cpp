@@ -152,7 +152,7 @@ HiddenTextures::Moved HiddenTextures::moved_to(int x, int y, int tile, float coc
 
 const HiddenTextures::Moved& HiddenTextures::Point::moved_to_here(int tile, float coc_px) {
     Moved& moved = found_[std::size_t(tile) % found_.size()];
-    if (moved.tile != tile || std::abs(moved.coc_px - coc_px) > completion_model.texture_one_px / 2)
+    if (moved.tile != tile || std::abs(moved.coc_px - coc_px) > completion_model.step_px / 2)
         moved = textures_.moved_to(x_, y_, tile, coc_px);
     return moved;
 }

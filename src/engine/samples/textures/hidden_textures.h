@@ -70,7 +70,7 @@ private:
     }
     bool shows(int x, int y, float coc_px) const {
         return known_.radii().rect().contains(x, y) &&
-               std::abs(known_.radii()(x, y) - coc_px) < completion_model.texture_one_px && sharp(x, y);
+               std::abs(known_.radii()(x, y) - coc_px) < completion_model.step_px && sharp(x, y);
     }
     Rgba detail_of_pixel(int x, int y) const { return known_.colour(x, y) - mean(x, y); }
     Rgba mean(float x, float y) const;
