@@ -1,6 +1,7 @@
 """Jobs for render farms: what farm write leaves, run by the tools of each system or by a stand-in of them."""
 import json
 import os
+import re
 import shutil
 import subprocess
 import unittest
@@ -9,6 +10,7 @@ from pictures import plane, write_exr
 from program import CAMERA, PETZVAL, CommandLineTest
 
 DTD = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "shared", "farm-formats", "cjsl-1.15.dtd")
+PAGE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "docs", "reference", "farm-files.md")
 # Flamenco's functions for job types, as its documentation describes them; prints the tasks.
 FLAMENCO = r"""
 const out = [];
@@ -60,6 +62,25 @@ class Farm(CommandLineTest):
         self.succeed("defocus", *self.shot("ref.####.exr"))
         for frame in frames:
             self.assertEqual(self.content("out.%04d.exr" % frame), self.content("ref.%04d.exr" % frame))
+
+    def test_the_page_of_farm_files_shows_what_is_written(self):
+        with open(PAGE) as file:
+            page = file.read()
+        shown = dict(re.findall(r"`jobs/([\w/.]+)`:\n\n```\w+\n(.*?)\n```", page, re.DOTALL))
+        self.assertEqual(len(shown), 6)
+        for folder in ("render", "comp", "jobs"):
+            os.mkdir(self.path(folder))
+        for frame in range(1001, 1013):
+            os.rename(self.path("in.0001.exr"), self.path("render/sh010.%d.exr" % frame))
+            self.make(1)
+        for name, text in shown.items():
+            system = name.split("/")[0]
+            self.succeed("farm", "write", "--for", system, "--chunk", "4", "-o", "jobs/" + system, "--",
+                         "render/sh010.####.exr", "-o", "comp/sh010.####.exr", "--lens", "doublet", "--max-memory", "2G",
+                         "--threads", "2", "-q")
+            written = self.content("jobs/" + name).decode().rstrip()
+            written = written.replace(os.path.realpath(self.folder), "/srv/shots/sh010")
+            self.assertEqual(written.replace(os.path.realpath(PETZVAL), "/usr/bin/petzval"), text, name)
 
     def test_a_list_run_by_xargs_makes_the_pictures_of_one_run(self):
         self.write("list", "--chunk", "1")
