@@ -42,9 +42,24 @@ TEST(InFront, IsNearerByMoreThanTheMargin) {
 TEST(Opaque, OutranksNothingThatHalvesRound) {
     // Halves between 1/2 and 1 are 2^-11 apart.
     EXPECT_LT(kOpaque, 1 - 1.0f / 2048);
+    EXPECT_LE(kOpaqueLayer, kOpaqueCaster);
     EXPECT_LE(kOpaqueCaster, kOpaqueElsewhere);
     EXPECT_LE(kOpaqueElsewhere, kOpaque);
 }
+
+TEST(SameSurface, HoldsForDepthsThatHalvesRound) {
+    constexpr float kRounded = 1 + 1.0f / 2048;
+    EXPECT_TRUE(same_surface_by_depth(kSameStatedRatio, 4, 4 * kRounded));
+    EXPECT_FALSE(same_surface_by_depth(kSameStatedRatio, 110, 112)) << "whose radii may be alike";
+}
+
+TEST(SameSurface, AsksMoreOfSamplesThatAreHidden) {
+    EXPECT_LT(kHiddenSheet.step_px, kConnected.step_px);
+    EXPECT_LT(kSameStatedPx, kOwnSurfacePx);
+    EXPECT_LT(kOwnSurfacePx, kHiddenSheet.step_px);
+}
+
+TEST(Sharp, IsADiscAsWideAsAPixel) { EXPECT_EQ(2 * kWithinPixelPx, 1); }
 
 TEST(Tiles, AreWholeGroups) {
     for (const int tile : {kScatterTile, kGatherTile, kLightsTile, kStampedTile, kStampedBlock})

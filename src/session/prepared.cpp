@@ -184,9 +184,11 @@ void PreparedFrame::take_options(const FrameRequest& request) {
 
 void PreparedFrame::take_samples(const FrameRequest& request, const Radii& radii, double lens_reach_px) {
     engine::Samples& seen = view.samples;
-    const engine::StatedPicture stated{
-        seen.colour,           depth_or_radii(request.rendered), has_radii(request.rendered),
-        request.rendered.deep, request.rendered.behind,          radii};
+    const engine::StatedDepth meaning = has_radii(request.rendered)
+                                            ? engine::StatedDepth(engine::StatedRadii{radii})
+                                            : engine::StatedDepth(engine::StatedMetres{radii});
+    const engine::StatedPicture stated{seen.colour, depth_or_radii(request.rendered), request.rendered.deep,
+                                       request.rendered.behind, meaning};
     samples_ = engine::all_samples(stated, *request.workers);
     plate_ = engine::back_picture(stated, *request.workers);
     const bool all = request.view == ScatterView::Layers || request.view == ScatterView::Hidden;
@@ -198,8 +200,7 @@ void PreparedFrame::take_samples(const FrameRequest& request, const Radii& radii
         (seen.plate.empty() || request.look.engine != "scatter"))
         warnings.emplace_back("job.fill has no effect where all samples of a pixel are given");
     if (request.rendered.holdout && !request.rendered.holdout->empty())
-        seen.holdout = holdout_ = engine::deep_samples(*request.rendered.holdout, radii,
-                                                       has_radii(request.rendered), *request.workers);
+        seen.holdout = holdout_ = engine::deep_samples(*request.rendered.holdout, meaning, *request.workers);
 }
 
 void PreparedFrame::note_radii() {

@@ -2,6 +2,7 @@
 
 #include "base/bits.h"
 #include "kernel/model/pieces.h"
+#include "laws/surfaces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +12,7 @@
 namespace petzval::engine {
 namespace {
 
-// A disc of this radius lies within its pixel: light that is out of focus by less stays where it is.
-constexpr float kWithinPixelPx = 0.5f;
+using laws::kWithinPixelPx;
 constexpr int kZonesX = 9, kZonesY = 6;
 
 std::vector<float> steps_down_from(float largest_px, float ratio) {

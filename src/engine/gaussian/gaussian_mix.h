@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/waist/engine.h"
+#include "laws/surfaces.h"
 
 #include <algorithm>
 #include <array>
@@ -9,8 +10,7 @@
 
 namespace petzval::engine {
 
-// A disc of this radius lies within its pixel: light that is out of focus by less stays where it is.
-constexpr float kWithinPixelPx = 0.5f;
+using laws::kWithinPixelPx;
 
 struct MixWeights {
     float sharp = 1, small = 0, large = 0;

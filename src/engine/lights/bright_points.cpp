@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 #include "engine/lights/highlights.h"
 #include "engine/samples/seen_first.h"
+#include "laws/surfaces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,14 +12,13 @@
 namespace petzval::engine {
 namespace {
 
-constexpr float kWithinPixelPx = 0.5f;  // light that is out of focus by less needs no kernel
-
 Rgba with_light(Rgba light, float alpha) { return {light.r, light.g, light.b, alpha}; }
 
 // Share of the light at this place and radius that is no bright point.
 float share_that_stays(const HighlightSplit& split, int x, int y, float coc_px, Rgba light) {
     const float brightness = luminance(light);
-    if (std::abs(coc_px) <= kWithinPixelPx || brightness <= 0 || split.is_dim(brightness, light.a)) return 1;
+    if (std::abs(coc_px) <= laws::kWithinPixelPx || brightness <= 0 || split.is_dim(brightness, light.a))
+        return 1;
     return luminance(split.base(x, y, coc_px, light)) / brightness;
 }
 

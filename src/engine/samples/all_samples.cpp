@@ -1,26 +1,19 @@
 #include "engine/samples/all_samples.h"
 
-#include "engine/samples/deep_samples.h"
+#include "laws/surfaces.h"
 
 #include <span>
 
 namespace petzval::engine {
 namespace {
 
-// Equal depths may differ by rounding (half floats have 11 bits); far away, radii alone say too little: 110 m
-// and 112 m may be a hundredth of a pixel apart.
-constexpr float kSameRadiusPx = 0.02f, kSameDepth = 1.001f;
-
-// Engines take what is nearer by less than this for the light's own surface.
-constexpr float kNoRoomPx = 0.2f;
-
 // Right behind another surface no ray gets in between: of a pixel's samples from `first` on, each keeps the
-// room that those less than kNoRoomPx in front of it leave.
+// room that those less than laws::kOwnSurfacePx in front of it leave.
 void hide_what_is_covered(BigVector<CocSample>& samples, std::size_t first) {
     for (std::size_t k = samples.size(); k-- > first + 1;) {
         CocSample& s = samples[k];
         float room = 1;
-        for (std::size_t j = k; j-- > first && s.coc_px - samples[j].coc_px < kNoRoomPx;)
+        for (std::size_t j = k; j-- > first && s.coc_px - samples[j].coc_px < laws::kOwnSurfacePx;)
             if (samples[j].coc_px < s.coc_px) room -= samples[j].colour.a;
         if (s.colour.a > room) s.colour = s.colour * (std::max(0.0f, room) / s.colour.a);
     }
@@ -62,13 +55,14 @@ void match_what_shows(BigVector<CocSample>& samples, std::size_t first, Rgba pic
 }  // namespace
 
 bool is_same_or_in_front(const StatedPicture& p, float depth, float visible) {
-    return p.radius_px(depth) <= p.radius_px(visible) + kSameRadiusPx &&
-           (p.depth_is_coc || finite_depth(double(depth)) <= finite_depth(double(visible)) * kSameDepth);
+    return p.radius_px(depth) <= p.radius_px(visible) + laws::kSameStatedPx &&
+           (is_in_radii(p.meaning) ||
+            finite_depth(double(depth)) <= finite_depth(double(visible)) * laws::kSameStatedRatio);
 }
 
 CocSamples all_samples(const StatedPicture& p, Workers& workers) {
     CocSamples all;
-    if (p.deep && !p.deep->empty()) return deep_samples(*p.deep, p.radius_px, p.depth_is_coc, workers);
+    if (p.deep && !p.deep->empty()) return deep_samples(*p.deep, p.meaning, workers);
     const View<const Rgba> colour = p.colour;
     all.width = colour.width();
     const DeepPicture* const extra = p.behind;

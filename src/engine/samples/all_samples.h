@@ -6,11 +6,11 @@
 #include "petzval/image.h"
 #include "petzval/workers.h"
 
+#include "engine/samples/deep_samples.h"
 #include "engine/waist/engine.h"
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 namespace petzval::engine {
 
@@ -27,12 +27,12 @@ inline double finite_depth(double depth_m) {
 
 // A picture with depth, plate and other stated inputs; all of one size.
 struct StatedPicture {
-    View<const Rgba> colour;  // finite
-    View<const float> depth;  // planar metres, or radii in pixels where depth_is_coc
-    bool depth_is_coc = false;
-    const DeepPicture* deep = nullptr;      // all samples: replaces colour and depth; may be null or empty
-    const DeepPicture* behind = nullptr;    // hidden layers; may be null or empty
-    std::function<float(float)> radius_px;  // the signed radius of a depth; never falls with depth
+    View<const Rgba> colour;              // finite
+    View<const float> depth;              // of all samples, as `meaning` has it
+    const DeepPicture* deep = nullptr;    // all samples: replaces colour and depth; may be null or empty
+    const DeepPicture* behind = nullptr;  // hidden layers; may be null or empty
+    StatedDepth meaning;
+    float radius_px(float stated_depth) const { return radius_of(meaning)(stated_depth); }
 };
 
 // True if a depth stated for the background lies at or in front of the visible depth.

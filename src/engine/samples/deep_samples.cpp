@@ -10,10 +10,10 @@
 namespace petzval::engine {
 namespace {
 
-DeepSample sound(DeepSample s, bool depth_is_coc) {
+DeepSample sound(DeepSample s, bool in_radii) {
     const auto finite = [](float v) { return std::isfinite(v) ? v : 0.0f; };
     const auto depth = [&](float z) {
-        return (depth_is_coc ? !std::isnan(z) : z > 0) ? z : std::numeric_limits<float>::infinity();
+        return (in_radii ? !std::isnan(z) : z > 0) ? z : std::numeric_limits<float>::infinity();
     };
     s.colour = {finite(s.colour.r), finite(s.colour.g), finite(s.colour.b),
                 std::clamp(finite(s.colour.a), 0.0f, 1.0f)};
@@ -40,12 +40,12 @@ float depth_of(float radius, const std::function<float(float)>& radius_px, float
 
 // Depths at which the volumes of a picture are cut, ascending. Crowded pixels are summed up between them, so
 // they span all finite depths.
-std::vector<float> cuts_of(const DeepPicture& deep, const std::function<float(float)>& radius_px,
-                           bool depth_is_coc) {
+std::vector<float> cuts_of(const DeepPicture& deep, const StatedDepth& meaning) {
+    const auto& radius_px = radius_of(meaning);
     float near = std::numeric_limits<float>::max(), far = std::numeric_limits<float>::lowest();
     bool thick = false;
     for (const DeepSample& stored : deep.samples()) {
-        const DeepSample s = sound(stored, depth_is_coc);
+        const DeepSample s = sound(stored, is_in_radii(meaning));
         thick = thick || s.depth_back > s.depth;
         for (const float z : {s.depth, s.depth_back})
             if (std::isfinite(z)) near = std::min(near, z), far = std::max(far, z);
@@ -67,9 +67,10 @@ std::vector<float> cuts_of(const DeepPicture& deep, const std::function<float(fl
 
 }  // namespace
 
-CocSamples deep_samples(const DeepPicture& deep, const std::function<float(float)>& radius_px,
-                        bool depth_is_coc, Workers& workers) {
-    const std::vector<float> cuts = cuts_of(deep, radius_px, depth_is_coc);
+CocSamples deep_samples(const DeepPicture& deep, const StatedDepth& meaning, Workers& workers) {
+    const std::vector<float> cuts = cuts_of(deep, meaning);
+    const auto& radius_px = radius_of(meaning);
+    const bool in_radii = is_in_radii(meaning);
     const std::size_t width = std::size_t(deep.width());
     CocSamples all;
     all.width = deep.width();
@@ -81,7 +82,7 @@ CocSamples deep_samples(const DeepPicture& deep, const std::function<float(float
         std::vector<DeepSample> pixel, tidy;
         for (int x = 0; x < deep.width(); ++x) {
             pixel.clear(), tidy.clear();
-            for (const DeepSample& s : deep.at(x, y)) pixel.push_back(sound(s, depth_is_coc));
+            for (const DeepSample& s : deep.at(x, y)) pixel.push_back(sound(s, in_radii));
             std::stable_sort(pixel.begin(), pixel.end(), nearer);
             tidy_pixel(pixel, cuts, tidy);
             for (const DeepSample& s : tidy) {

@@ -3,6 +3,7 @@
 
 #include "engine/waist/engine.h"
 #include "laws/compositing.h"
+#include "laws/surfaces.h"
 
 #include <algorithm>
 
@@ -49,9 +50,8 @@ public:
         float shows;  // 0…1
     };
     Place next(const CocSample& s) {
-        constexpr float kOpaque = 0.97f;
         const int layer = at(s.coc_px);
-        if (s.colour.a + s.empty > kOpaque) opaque_ = layer, hides_ = true;
+        if (s.colour.a + s.empty > laws::kOpaqueLayer) opaque_ = layer, hides_ = true;
         return {layer, shows(s, layer)};
     }
 

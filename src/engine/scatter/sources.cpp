@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 #include "engine/samples/connectivity.h"
 #include "engine/scatter/scatter_kernels.h"
+#include "laws/surfaces.h"
 
 #include <algorithm>
 #include <array>
@@ -14,8 +15,7 @@ namespace {
 // The change of weight per pixel away from a source: a facet of a slanted surface is seen larger from one
 // side of the pupil than from the other, by 1 + slope . u with u = offset / radius.
 Slope tilt_of(Slope slope, float coc_px) {
-    constexpr float kLeastRadiusPx = 0.5f;  // narrower discs stay within their pixel
-    if (std::abs(coc_px) < kLeastRadiusPx) return {};
+    if (std::abs(coc_px) < laws::kWithinPixelPx) return {};
     return {slope.x / coc_px, slope.y / coc_px};
 }
 

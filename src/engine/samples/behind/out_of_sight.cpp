@@ -1,6 +1,7 @@
 #include "engine/samples/behind/out_of_sight.h"
 
 #include "base/parallel.h"
+#include "laws/surfaces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,11 +10,9 @@
 namespace petzval::engine {
 namespace {
 
-constexpr float kOpaque = 1 - 1e-3f;
-// Largest step of the radius from pixel to pixel within one sheet: for visible samples as in connectivity.h;
-// smaller for hidden ones, where one of many leaves may lie beside any other.
-constexpr float kShownStepPx = 0.9f, kHiddenStepPx = 0.25f;
-constexpr float kNoRoomPx = 0.2f;
+using laws::kOpaque;
+// Largest step of the radius from pixel to pixel within one sheet: visible samples, and hidden ones.
+constexpr float kShownStepPx = laws::kConnected.step_px, kHiddenStepPx = laws::kHiddenSheet.step_px;
 constexpr float kMarginPx = 1.5f;  // pixels have a width; half of one less, and the meadow loses 0.5 dB
 
 // Opaque samples that continue from pixel to pixel are a sheet, of any shape. A sample behind it, at pixel p
@@ -35,7 +34,7 @@ public:
     bool hide(std::size_t first, std::size_t k) const {
         const float own = all_.samples[k].coc_px;
         for (std::size_t j = first; j < k; ++j)
-            if (is_opaque(j) && all_.samples[j].coc_px < own - kNoRoomPx &&
+            if (is_opaque(j) && all_.samples[j].coc_px < own - laws::kOwnSurfacePx &&
                 own + kMarginPx * per_px_ < seen_from_[j])
                 return true;
         return false;

@@ -8,7 +8,7 @@
 namespace petzval::engine {
 namespace {
 
-constexpr float kOpaque = 1 - 1e-3f;
+using laws::kOpaque;
 
 // The surfaces in front of the plate, as if they filled their pixels.
 struct Fronts {

@@ -6,6 +6,7 @@
 #include "engine/samples/all_samples.h"
 #include "engine/samples/hidden.h"
 #include "engine/waist/engine.h"
+#include "laws/surfaces.h"
 
 namespace petzval::engine {
 
@@ -22,8 +23,7 @@ BackPicture back_picture(const StatedPicture& picture, Workers& workers);
 
 // A surface nearer than the plate by less than this hides next to nothing of it.
 inline bool is_before_plate(float coc_px, float plate_px) {
-    constexpr float kBehindPx = 0.9f;
-    return coc_px < plate_px - kBehindPx;
+    return laws::is_in_front(coc_px, plate_px, laws::kConnected.step_px);
 }
 
 // Takes those silhouettes apart anew behind which the plate lies, whose colour is known.
