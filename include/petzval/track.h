@@ -46,6 +46,8 @@ public:
 
     // A rack: "1001:80,45" is a pixel in a frame, "1024:3.2" a distance in metres. Errors: InvalidArgument.
     static Result<Track> rack(const std::vector<std::string>& keys);
+    // Focus distances in metres by frame. Requires: a key, all above 0.
+    static Track of_focus(const std::map<int, double>& distances_m);
     // Adds the values of another track. Errors: InvalidArgument if both change the same value.
     Status add(Track other);
 
@@ -55,6 +57,8 @@ public:
     void set_focus(const std::map<int, double>& distances_m);
 
     TrackedFrame at(int frame) const;
+    // The focus moves slowly near its keys and faster between them.
+    void ease_focus();
     // Focus distances alone: from frame to frame the focus moves by no more than this from where it was, in
     // dioptres, and comes late where its keys ask for more. Requires: > 0.
     void limit_focus_speed(double dioptres_per_frame);
@@ -76,7 +80,7 @@ private:
     std::vector<Column> columns_;
     int first_ = 0, last_ = 0;
     bool is_measured_ = false;  // set_focus() was called
-    bool is_slowed_ = false;    // limit_focus_speed()
+    bool is_moving_ = false;    // ease_focus() or limit_focus_speed(): the focus has a number in each frame
     friend class TrackReader;
 };
 

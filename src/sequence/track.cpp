@@ -381,7 +381,7 @@ TrackedFrame Track::at(int frame) const {
     else
         tracked.camera.focus_distance_m = camera("focus");
     if (const Column* focus = find("focus"); focus && !by_pixel)
-        tracked.is_between_keys = is_slowed_ || !focus->numbers.contains(frame);
+        tracked.is_between_keys = is_moving_ || !focus->numbers.contains(frame);
     tracked.camera.f_number = camera("fstop");
     tracked.camera.focal_length_mm = camera("focal_length");
     if (const auto x = camera("point_x"), y = camera("point_y"), z = camera("point_z"); x && y && z)
@@ -397,6 +397,30 @@ TrackedFrame Track::at(int frame) const {
         tracked.look[column.name] = key->second;
     }
     return tracked;
+}
+
+Track Track::of_focus(const std::map<int, double>& distances_m) {
+    Track track;
+    track.set_focus(distances_m);
+    track.first_ = distances_m.begin()->first, track.last_ = distances_m.rbegin()->first;
+    return track;
+}
+
+void Track::ease_focus() {
+    const auto focus =
+        std::find_if(columns_.begin(), columns_.end(), [](const Column& c) { return c.name == "focus"; });
+    if (focus == columns_.end() || focus->numbers.empty()) return;
+    const std::map<int, double> keys = focus->numbers;
+    constexpr int kMostFrames = 1'000'000;
+    for (auto key = keys.begin(); std::next(key) != keys.end(); ++key) {
+        const auto next = std::next(key);
+        const double frames = double(next->first) - key->first;
+        for (int i = 1; i < std::min(frames, double(kMostFrames)); ++i) {
+            const double share = i / frames, eased = share * share * (3 - 2 * share);
+            focus->numbers[key->first + i] = (1 - eased) * key->second + eased * next->second;
+        }
+    }
+    is_moving_ = true;
 }
 
 void Track::limit_focus_speed(double dioptres_per_frame) {
@@ -417,7 +441,7 @@ void Track::limit_focus_speed(double dioptres_per_frame) {
         if (frame == std::numeric_limits<int>::max()) break;
     }
     focus->numbers = std::move(slow);
-    is_slowed_ = true;
+    is_moving_ = true;
 }
 
 }  // namespace petzval

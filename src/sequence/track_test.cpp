@@ -128,6 +128,20 @@ TEST_F(TrackFile, FocusMayBeNoFasterThanItsLimit) {
     EXPECT_DOUBLE_EQ(*track->at(50).camera.focus_distance_m, 1);
 }
 
+TEST(Track, OfKeysMovesEvenlyInDioptresUnlessItIsEased) {
+    Track track = Track::of_focus({{10, 1.0}, {14, 0.5}});
+    const auto dioptres = [&](int frame) { return 1 / *track.at(frame).camera.focus_distance_m; };
+    EXPECT_DOUBLE_EQ(dioptres(11), 1.25);
+    EXPECT_FALSE(track.at(10).is_between_keys);
+    track.ease_focus();
+    EXPECT_DOUBLE_EQ(dioptres(11), 1.15625) << "3 s^2 - 2 s^3 of a quarter";
+    EXPECT_DOUBLE_EQ(dioptres(12), 1.5) << "the same in the middle";
+    EXPECT_DOUBLE_EQ(dioptres(9), 1);
+    EXPECT_DOUBLE_EQ(dioptres(20), 2);
+    EXPECT_EQ(track.first(), 10);
+    EXPECT_EQ(track.last(), 14);
+}
+
 TEST_F(TrackFile, WhatIsWrongIsSaidWithItsLine) {
     for (const auto& [text, said] : std::initializer_list<std::pair<const char*, const char*>>{
              {"", "no key"},

@@ -61,17 +61,11 @@ App::~App() {
 
 ShotSource App::source() const {
     ShotSource source = with_input(setup_.source, state.choice.input);
-    if (!state.timeline.is_shot()) return source;
-    std::vector<std::string*> paths{&source.path, &source.read.depth_file, &source.behind, &source.holdout,
-                                    &source.lights};
-    for (std::string& path : source.merge) paths.push_back(&path);
-    for (std::string* path : paths) *path = of_this_frame(*path);
-    return source;
+    return state.timeline.is_shot() ? at_frame(std::move(source), state.timeline.frame) : source;
 }
 
 std::string App::of_this_frame(const std::string& path) const {
-    const auto pattern = FramePattern::find(path);
-    return state.timeline.is_shot() && pattern && *pattern ? (*pattern)->path(state.timeline.frame) : path;
+    return state.timeline.is_shot() ? at_frame(path, state.timeline.frame) : path;
 }
 
 void App::go_to(int frame) {

@@ -3,9 +3,7 @@
 #include "fields.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <iterator>
+#include <cstddef>
 
 namespace petzval::view {
 
@@ -21,30 +19,18 @@ int Timeline::stepped(int by) const {
     return played[std::size_t(to)];
 }
 
-double Timeline::wanted_at(int at) const {
-    const auto after = keys.lower_bound(at);
-    if (after == keys.end()) return keys.rbegin()->second;
-    if (after == keys.begin() || after->first == at) return after->second;
-    const auto before = std::prev(after);
-    double share = double(at - before->first) / double(after->first - before->first);
-    if (easing) share = share * share * (3 - 2 * share);
-    return 1 / ((1 - share) / before->second + share / after->second);
+std::optional<Track> Timeline::track() const {
+    if (keys.empty()) return std::nullopt;
+    Track track = Track::of_focus(keys);
+    if (easing) track.ease_focus();
+    if (focus_speed > 0) track.limit_focus_speed(focus_speed);
+    return track;
 }
 
 std::map<int, double> Timeline::focus_over(int from, int to) const {
     std::map<int, double> focus;
-    if (keys.empty()) return focus;
-    constexpr std::int64_t kMostFrames = 1'000'000;  // to look through for one
-    if (focus_speed <= 0 || std::int64_t(to) - keys.begin()->first > kMostFrames) {
-        for (int at = from; at <= to; ++at) focus[at] = wanted_at(at);
-        return focus;
-    }
-    const int first_key = keys.begin()->first;
-    double dioptres = 1 / keys.begin()->second;
-    for (int at = std::min(from, first_key); at <= to; ++at) {
-        if (at > first_key) dioptres += std::clamp(1 / wanted_at(at) - dioptres, -focus_speed, focus_speed);
-        if (at >= from) focus[at] = 1 / dioptres;
-    }
+    const auto keyed = track();
+    for (int at = from; keyed && at <= to; ++at) focus[at] = *keyed->at(at).camera.focus_distance_m;
     return focus;
 }
 

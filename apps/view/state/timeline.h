@@ -1,6 +1,8 @@
 // The frames of a shot, and the focus over them.
 #pragma once
 
+#include "petzval/track.h"
+
 #include <map>
 #include <optional>
 #include <string>
@@ -31,7 +33,7 @@ struct Timeline {
     std::string as_track() const;
 
 private:
-    double wanted_at(int at) const;  // by the keys alone, of which there are some
+    std::optional<Track> track() const;  // nothing without keys
 };
 
 }  // namespace petzval::view
