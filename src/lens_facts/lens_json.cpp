@@ -121,6 +121,34 @@ Json path_json(const std::vector<SectionPoint>& points) {
     return path;
 }
 
+Json mount_json(const LensMount& mount) {
+    const Camera& c = mount.camera;
+    return {{"focal_length_mm", number(c.focal_length_mm)},
+            {"sensor_width_mm", number(c.sensor_width_mm)},
+            {"f_number", number(c.f_number)},
+            {"focus_distance_m", c.focus_distance_m > 0 ? number(c.focus_distance_m) : number(INFINITY)},
+            {"width", mount.width_px},
+            {"height", mount.height_px}};
+}
+
+// Sides and sums by zone, then radius.
+Json sides_json(const LensAtlas& atlas) {
+    Json all = Json::array();
+    for (const auto& zone : atlas.sides_px) {
+        Json& row = all.emplace_back(Json::array());
+        for (const double side_px : zone) row.push_back(number(side_px));
+    }
+    return all;
+}
+Json sums_json(const LensAtlas& atlas) {
+    Json all = Json::array();
+    for (const auto& zone : atlas.sums) {
+        Json& row = all.emplace_back(Json::array());
+        for (const auto& [r, g, b] : zone) row.push_back({number(r), number(g), number(b)});
+    }
+    return all;
+}
+
 }  // namespace
 
 std::string lens_facts_json(const LensFacts& facts) {
@@ -148,6 +176,25 @@ std::string lens_list_json(const std::vector<LensSummary>& lenses) {
 std::string lens_curves_json(const LensFacts& facts) {
     return written({{"longitudinal_aberration_mm", longitudinal_json(facts.longitudinal_aberration)},
                     {"field", field_json(facts.field)}});
+}
+
+std::string lens_mount_json(const LensMount& mount) { return written(mount_json(mount)); }
+
+std::string lens_atlas_json(const LensAtlas& atlas, const std::string& name, const LensMount& mount) {
+    Json header;
+    header["format"] = "petzval lens atlas";
+    header["version"] = 1;
+    header["name"] = name;
+    header["lens"] = atlas.lens;
+    header["camera"] = mount_json(mount);
+    header["texels"] = {
+        {"file", "atlas.bin"}, {"type", "rgb9e5"}, {"width", atlas.width}, {"height", atlas.height}};
+    header["tile"] = {{"side", kAtlasTileSide}};
+    header["zones"] = atlas.zones;
+    header["radii_px"] = atlas.radii_px;
+    header["sides_px"] = sides_json(atlas);
+    header["sums"] = sums_json(atlas);
+    return written(header);
 }
 
 std::string lens_section_json(const LensSection& section) {

@@ -1,4 +1,5 @@
 // petzval lens atlas: discs by place in the frame and by radius, for shaders (docs/reference/lens-atlas.md).
+#include "petzval/lens_json.h"
 #include "petzval/lens_kernel.h"
 
 #include "console/console.h"
@@ -33,42 +34,6 @@ Result<LensAtlas> make_atlas(const MountedLens& mounted, const AtlasFlags& flags
     return lens_atlas(mounted.lens, mounted.mount, settings);
 }
 
-// Writes the sides by zone, then radius.
-Json sides_json(const LensAtlas& atlas) {
-    Json all = Json::array();
-    for (const auto& zone : atlas.sides_px) {
-        Json& row = all.emplace_back(Json::array());
-        for (const double side_px : zone) row.push_back(number(side_px));
-    }
-    return all;
-}
-
-Json sums_json(const LensAtlas& atlas) {
-    Json all = Json::array();
-    for (const auto& zone : atlas.sums) {
-        Json& row = all.emplace_back(Json::array());
-        for (const auto& [r, g, b] : zone) row.push_back({number(r), number(g), number(b)});
-    }
-    return all;
-}
-
-Json header_of(const LensAtlas& atlas, const MountedLens& mounted, const AtlasFlags& flags) {
-    Json header;
-    header["format"] = "petzval lens atlas";
-    header["version"] = 1;
-    header["name"] = flags.lens_name;
-    header["lens"] = atlas.lens;
-    header["camera"] = mount_json(mounted.mount);
-    header["texels"] = {
-        {"file", "atlas.bin"}, {"type", "rgb9e5"}, {"width", atlas.width}, {"height", atlas.height}};
-    header["tile"] = {{"side", kAtlasTileSide}};
-    header["zones"] = atlas.zones;
-    header["radii_px"] = atlas.radii_px;
-    header["sides_px"] = sides_json(atlas);
-    header["sums"] = sums_json(atlas);
-    return header;
-}
-
 Status write_atlas(AtlasFlags& flags) {
     const Stopwatch watch;
     const std::string header = flags.file("atlas.json"), texels = flags.file("atlas.bin");
@@ -80,10 +45,12 @@ Status write_atlas(AtlasFlags& flags) {
     if (const Status made = make_folder(flags.folder); !made) return made;
     for (const std::string& path : {header, texels}) run_files().writes(path);
     if (const Status fine = run_files().check(); !fine) return fine;
-    const Json described = header_of(*atlas, *mounted, flags);
     // The header last: where it is, its texels are.
     if (const Status done = write_text(texels, atlas->texels); !done) return done;
-    if (const Status done = write_text(header, report_text(described, -1)); !done) return done;
+    if (const Status done =
+            write_text(header, lens_atlas_json(*atlas, flags.lens_name, mounted->mount) + "\n");
+        !done)
+        return done;
     note("wrote " + header + " and " + texels + ": " + atlas->lens + " (" +
          camera_text(mounted->mount.camera) + ")");
     if (flags.run.json.empty()) return Done{};
@@ -91,7 +58,7 @@ Status write_atlas(AtlasFlags& flags) {
     report["output"] = header;
     report["outputs"] = {header, texels};
     report["lens"] = lens_json(flags.look.look(), atlas->lens);
-    report["camera"] = described["camera"];
+    report["camera"] = mount_json(mounted->mount);
     report["radii_px"] = atlas->radii_px;
     return write_report(finished(std::move(report), watch), flags.run.json);
 }

@@ -1,9 +1,8 @@
 #include "lens/mount.h"
 
-#include "petzval/lens_facts.h"
+#include "petzval/lens_json.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace petzval::cli {
 namespace {
@@ -58,15 +57,7 @@ std::string camera_text(const Camera& c) {
            plain(c.f_number, 3);
 }
 
-Json mount_json(const LensMount& mount) {
-    const Camera& c = mount.camera;
-    return {{"focal_length_mm", number(c.focal_length_mm)},
-            {"sensor_width_mm", number(c.sensor_width_mm)},
-            {"f_number", number(c.f_number)},
-            {"focus_distance_m", c.focus_distance_m > 0 ? number(c.focus_distance_m) : number(INFINITY)},
-            {"width", mount.width_px},
-            {"height", mount.height_px}};
-}
+Json mount_json(const LensMount& mount) { return json_of(lens_mount_json(mount)); }
 
 bool is_off_axis(const LookRow& row) {
     for (const char* flag : {"--cats-eye", "--lateral-colour", "--add-lateral-colour",
