@@ -115,6 +115,17 @@ Piece count_from_here(Context& context) {
     return counters;
 }
 
+// Instead of the picture: a plane of this radius, with this many bright pixels in a thousand.
+void make_plane(Picture& colour, Plane& coc_px, float radius_px, unsigned per_thousand) {
+    unsigned random = 1;
+    for (std::size_t i = 0; i < colour.size(); ++i) {
+        random = random * 1664525u + 1013904223u;
+        const bool is_bright = random / 65536u % 1000u < per_thousand;
+        colour.pixels()[i] = is_bright ? Rgba{400, 300, 200, 1} : Rgba{0.05f, 0.05f, 0.05f, 1};
+        coc_px.pixels()[i] = radius_px;
+    }
+}
+
 void print(const Piece& counters, double pixels) {
     const auto* const runs = reinterpret_cast<const std::uint32_t*>(counters.mapped());
     const char* separator = "{";
@@ -141,12 +152,17 @@ void print(const Piece& counters, double pixels) {
 int main(int count, char** words) {
     bench::Asked asked;
     asked.engine = "realtime";
-    bench::read_words(count, words, asked, [](const std::string&, const std::string&) { return false; });
-    const Result<Frame> frame = read_frame(asked.file);
+    int bright = -1;
+    bench::read_words(count, words, asked, [&](const std::string& flag, const std::string& value) {
+        bright = std::stoi(value);
+        return flag == "--bright";
+    });
+    Result<Frame> frame = read_frame(asked.file);
     if (!frame) fail(frame.error().message);
     const DefocusJob job = bench::job_of(frame->colour, frame->depth, frame->camera, asked);
-    const Result<Plane> coc_px = circle_of_confusion(job);
+    Result<Plane> coc_px = circle_of_confusion(job);
     if (!coc_px) fail(coc_px.error().message);
+    if (bright >= 0) make_plane(frame->colour, *coc_px, float(asked.radius_px), unsigned(bright));
     const int width = frame->colour.width(), height = frame->colour.height();
     const auto mounted = kernel::make_lens(job.lens, {job.camera, width, height});
     if (!mounted) fail(mounted.error().message);

@@ -1,6 +1,7 @@
 """Work of the real-time pass a pixel, counted while it draws, and the least time that it takes on six cards.
 
-Usage: ./dev bench cost [--scenes A,B] [--radii R,R] [--width N] [--quality Q]
+Usage: ./dev bench cost [--scenes A,B] [--radii R,R] [--width N] [--quality Q] [--bright N,N]
+--bright: instead of the scenes a plane of each radius, with so many bright pixels in a thousand: the worst case of lamps.
 A counter in each block of each program counts how often invocations ran it; a block's work is read from its SPIR-V
 (bench/counted_spirv.h): 32-bit operations of one lane, with 4 for a root or reciprocal; samples and fetches of images;
 reads and writes of buffers. Any device serves, as counts do not depend on it.
@@ -23,7 +24,14 @@ from quality import PROGRAM
 
 COST = pathlib.Path(PROGRAM).parents[2] / "bench/petzval_bench_cost"
 # Operations and samples of RGBA16F a second, bytes a second, pixels. Published peaks: half of the teraflops, texels a second
-# (half of them on GeForce and GCN), memory.
+# (half of them on GeForce and GCN), memory. Read on 2026-11-27, besides those that bench/gpu.py names:
+# RTX 4090: 82.6 TFLOPS, 512 texture units, 2.52 GHz (https://www.notebookcheck.pl/NVIDIA-NVIDIA-GeForce-RTX-4090.677670.0.html),
+# 1010 GB/s (https://pcspecchart.com/pc_parts/gpu/25). H100 SXM: 132 multiprocessors (the page in gpu.py); that each has four
+# texture units is assumed, and a clock of 1.77 GHz. RX 480: 5.834 TFLOPS, 182.3 GT/s, 256 GB/s
+# (https://fpsbench.com/compare/gpu/amd-radeon-rx-480-vs-nvidia-tesla-k8). Steam Deck: 8 compute units at 1.6 GHz, 88 GB/s
+# (https://vuink.com/post/nefgrpuavpn-d-dpbz/gaming/2021/11/valve-provides-a-deep-dive-into-steam-decks-custom-hardware-design),
+# 1.6 TFLOPS (https://gist.github.com/TylerRudie/29939a0b0021cca18df7a2e423846d59); four texture units in each are assumed, and
+# in each of the 60 of the RX 7800 XT at 2.43 GHz. The RTX 4060's texels are assumed as well: 96 units at 2.46 GHz.
 CARDS = {
     "RTX 4090, 1080p": (41.3e12, 645e9, 1008e9, 1920 * 1080),
     "H100 SXM, 1080p": (33.5e12, 466e9, 3350e9, 1920 * 1080),
@@ -37,7 +45,11 @@ STEPS = ("measure", "split", "reach", "gather", "combine")
 
 
 def counted(scene, radius, given):
-    result = subprocess.run([COST, picture(scene, given.width), "--radius", str(radius), "--quality", given.quality], stdout=subprocess.PIPE, text=True)
+    """`scene`: a name, or a number of bright pixels in a thousand."""
+    words = ["--radius", str(radius), "--quality", given.quality]
+    if scene.isdigit():
+        words += ["--bright", scene]
+    result = subprocess.run([COST, picture("night" if scene.isdigit() else scene, given.width), *words], stdout=subprocess.PIPE, text=True)
     if result.returncode:
         sys.exit(result.returncode)
     return json.loads(result.stdout)
@@ -59,9 +71,10 @@ def main():
     parser.add_argument("--radii", type=lambda s: s.split(","), default=["12", "40"], help="largest radius, px")
     parser.add_argument("--width", type=int, default=640)
     parser.add_argument("--quality", default="standard")
+    parser.add_argument("--bright", type=lambda s: s.split(","), default=[])
     given = parser.parse_args()
     rows, times, last = [], [], {}
-    for scene in given.scenes:
+    for scene in given.bright or given.scenes:
         for radius in given.radii:
             last = counted(scene, radius, given)
             all_of = {unit: sum(step[unit] for step in last.values()) for unit in ("operations", "samples", "reads")}

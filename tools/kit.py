@@ -56,7 +56,8 @@ def wgsl(step, made, out):
         return "naga is not installed (cargo install naga-cli)"
     plain, spirv = made / f"{step}.comp", made / f"{step}.apart.spv"
     plain.write_text(separated((out / "glsl" / f"{step}.comp").read_text()))
-    run("glslc", "--target-env=vulkan1.1", "-O", "-o", spirv, plain)
+    # Not -O: it shares pointers into buffers between blocks, which naga refuses.
+    run("glslc", "--target-env=vulkan1.1", "-O0", "-o", spirv, plain)
     run("naga", spirv, out / "wgsl" / f"{step}.wgsl")
     run("naga", out / "wgsl" / f"{step}.wgsl")
     return "written"
@@ -80,7 +81,7 @@ def translate(step, made, out):
 BOUND = {
     "measure": {0: "colour", 1: "surroundings: 2 floats a tile"},
     "split": {0: "colour", 1: "depth", 2: "cells, level 0", 3: "cells, level 1", 4: "cells, level 2", 5: "cells, level 3",
-              6: "tiles: largest radii, 4 floats a tile", 7: "surroundings", 8: "lamps: 4 words a tile"},
+              6: "tiles: radii, 4 floats a tile", 7: "surroundings", 8: "lamps: 4 words a tile"},
     "reach": {0: "tiles", 1: "reach: 4 floats a tile", 2: "lamps", 3: "boxes: 4 ints a tile", 4: "kept: 4 words a tile", 5: "cells, level 0"},
     "gather": {0: "cells, all levels, linear", 1: "lens", 2: "reach", 3: "gathered: 3 layers of cells"},
     "combine_16": {0: "colour", 1: "cells, all levels, linear", 2: "layer over the picture, or anything", 3: "gathered, linear",

@@ -15,7 +15,8 @@ const int kMostTaps = 127, kSets = 4, kShares = 64, kFirstWeight = 1 + kSets * k
 const float kLeastArea = 1e-4;
 const float kNearestPx = 8;  // where what is hidden is looked for first
 
-int first_tap;  // of the cell's own set, from the first of all
+int first_tap, taps;  // of the cell's own set, from the first of all; their number
+float tap_side;       // of the square that a tap reads on a disc of radius 1
 vec4 tap_of(int i) { return lens[1 + first_tap + i]; }
 // Weight of a tap for light blurred by a share of the disc's radius: the lens's shape, normalised so that a plane keeps
 // its light (engine/gather/realtime_plan.cpp).
@@ -29,7 +30,7 @@ struct Disc {
 };
 Disc disc_of(vec2 middle, float radius_px) {
     const vec2 texel = 1 / vec2(8 * at.tiles);
-    return Disc(middle * texel, 0.5 * radius_px * vec2(1, at.aspect) * texel, max(0.0, log2(0.5 * radius_px * lens[0].y)));
+    return Disc(middle * texel, 0.5 * radius_px * vec2(1, at.aspect) * texel, max(0.0, log2(0.5 * radius_px * tap_side)));
 }
 vec4 read_cells(Disc disc, vec2 tap, int layer) { return textureLod(cells, vec3(disc.middle + tap * disc.scale, layer), disc.level); }
 
@@ -55,7 +56,6 @@ struct Sum {
 Sum back_over(vec2 middle, float radius, float own_px, int which) {
     const Disc disc = disc_of(middle, radius);
     const float per_radius = 1 / radius, per_own = 1 / own_px, least = 0.5 * per_radius;
-    const int taps = int(lens[0].x);
     Sum sum = Sum(vec4(0), 0, 0, 0, 0);
     vec2 less_sum = vec2(0);
     for (int i = 0; i < taps; ++i) {
@@ -105,7 +105,6 @@ vec4 hidden_of(vec2 middle, float own_px, float most_px, out float is_known) {
     float area = 0, back_area = 0, back_px = 0;
     for (float radius = min(kNearestPx, most_px);; radius = min(4 * radius, most_px)) {
         const Disc disc = disc_of(middle, radius);
-        const int taps = int(lens[0].x);
         for (int i = 0; i < taps; ++i) {
             const vec4 tap_at = tap_of(i);
             const vec2 tap = tap_at.xy;
@@ -136,7 +135,6 @@ vec4 hidden_of(vec2 middle, float own_px, float most_px, out float is_known) {
 vec4 near_of(vec2 middle, float radius, out float area) {
     const Disc disc = disc_of(middle, radius);
     const float per_radius = 1 / radius, least = 0.5 * per_radius;
-    const int taps = int(lens[0].x);
     vec4 light = vec4(0);
     area = 0;
     for (int i = 0; i < taps; ++i) {
@@ -155,6 +153,8 @@ void main() {
     const ivec2 cell = ivec2(gl_GlobalInvocationID.xy), tile = ivec2(gl_WorkGroupID.xy);
     const float near_px = reach[tile.y * at.tiles.x + tile.x].x;
     const vec2 middle = vec2(cell) + 0.5;
+    const vec4 head = lens[0];
+    taps = int(head.x), tap_side = head.y;
     first_tap = kMostTaps * ((cell.x & 1) + 2 * (cell.y & 1));
     const vec4 own = texelFetch(cells, ivec3(cell, kBack), 0);
     const bool has = own.z > 0.02;

@@ -4,9 +4,10 @@
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 64) in;
 
-// Largest radius in front of focus; largest radius of pixels blurred pixel by pixel, behind focus and in front of it.
+// Largest radius in front of focus; largest radius of pixels blurred pixel by pixel, behind focus and in front of it;
+// the smallest signed radius.
 layout(std430, binding = 0) readonly buffer Tiles { vec4 tiles[]; };
-layout(std430, binding = 1) writeonly buffer Reach { vec4 reach[]; };  // the same, as it reaches a tile
+layout(std430, binding = 1) writeonly buffer Reach { vec4 reach[]; };  // the same, as it reaches a tile; the last of the tile alone
 layout(std430, binding = 2) readonly buffer Lamps { uvec4 lamps[]; };
 layout(std430, binding = 3) writeonly buffer Boxes { ivec4 boxes[]; };  // first and last column and row; empty: last < first
 layout(std430, binding = 4) writeonly buffer Kept { uvec4 kept[]; };    // the lamps that are left, as in `lamps`
@@ -100,7 +101,7 @@ void main() {
         }
     boxes[own] = box;
     // Light behind focus is seen through a pixel's own disc, so other tiles do not widen it.
-    reach[own] = vec4(most, tiles[own].y, fine_near, 0);
+    reach[own] = vec4(most, tiles[own].y, fine_near, tiles[own].w);
     const uvec4 lamp = lamps[own];
     kept[own] = uvec4(all > kMostLamps ? thinned(tile, lamp.xy, all) : lamp.xy, lamp.zw);
 }

@@ -17,7 +17,7 @@ layout(std430, binding = 8) writeonly buffer Lamps { uvec4 lamps[]; };  // by ti
 #include "realtime_lamps.glsl"
 
 shared vec4 part[kLayers][64];
-shared vec3 radii[64];
+shared vec4 radii[64];
 shared uint lamp_cells[2], lamp_px;  // as bits: they are ordered as floats are
 
 // The signed radius of a cell's lamp, which is that of its brightest pixel. But a bright pixel or two among dark ones of their
@@ -99,7 +99,7 @@ void main() {
     measure_around();
     vec4 near_light = vec4(0), back_light = vec4(0);
     float near_area = 0, near_radius = 0, near_counts = 0, back_area = 0, back_weight = 0, back_radius = 0, back_counts = 0;
-    vec3 range = vec3(0);
+    vec4 range = vec4(0, 0, 0, -at.most_px);  // realtime_reach.comp: tiles; the last with its sign turned
     vec2 lamp_place = vec2(0);
     vec4 lamp = vec4(0), own_radii;
     for (int i = 0; i < 4; ++i) {
@@ -114,7 +114,7 @@ void main() {
             const vec4 taken = blurred_share(abs(radius)) * bright;
             lamp += taken, lamp_place += brightness(taken) * (vec2(corner) + 0.5);
         }
-        range = max(range, vec3(-radius, pixelwise(radius), pixelwise(-radius)));
+        range = max(range, vec4(-radius, pixelwise(radius), pixelwise(-radius), -radius));
         const float near = 0.25 * blurred_share(-radius), back = 0.25 - near;
         near_light += near * light, near_area += near;
         // The mean over two depths has the radius of the brighter light.
@@ -142,7 +142,7 @@ void main() {
         barrier();
         const bool is_one = local.x < side && local.y < side;
         vec4 mean[kLayers];
-        vec3 both = vec3(0);
+        vec4 both;
         if (is_one) {
             const int a = 2 * local.y * 2 * side + 2 * local.x, b = a + 2 * side;
             for (int k = 0; k < kLayers; ++k)
@@ -161,5 +161,5 @@ void main() {
             radii[local.y * side + local.x] = both;
         }
     }
-    if (own == 0u) tiles[tile.y * at.tiles.x + tile.x] = vec4(radii[0], 0);
+    if (own == 0u) tiles[tile.y * at.tiles.x + tile.x] = vec4(radii[0].xyz, -radii[0].w);
 }

@@ -6,20 +6,37 @@ layout(std430, binding = 7) readonly buffer Boxes { ivec4 boxes[]; };  // realti
 const int kLampSteps = 14, kFirstStep = 1 + 4 * 127 * (1 + 2 * 64);
 const float kStepAt = 0.5;  // pixels: the radius of the first kernel; the next are sqrt(2) times as wide each
 
-// The share of its light that a lamp sends to an offset in pixels.
-vec4 kernel_at(vec2 offset, float radius_px) {
-    const float radius = max(abs(radius_px), kStepAt);
+// Lamps of one tile as a group reads them, by their cells.
+struct Lamp {
+    vec2 from;           // pixels
+    float radius;        // signed
+    float cells_per_px;  // of its kernel
+    vec3 light;          // times the size of a kernel's cell
+    int first, half_side;  // of its kernel; half_side < 0: it reaches no pixel of the group
+};
+shared Lamp group_lamps[64];
+
+Lamp lamp_of_cell(ivec2 cell) {
+    const vec4 place = texelFetch(cells, ivec3(cell, kLampPlace), 0);
+    const float radius = max(abs(place.z), kStepAt);
     const int step_of = clamp(int(round(2 * log2(radius / kStepAt))), 0, kLampSteps - 1);
-    const vec4 kept = lens[kFirstStep + step_of + (radius_px < 0 ? 0 : kLampSteps)];
+    const vec4 kept = lens[kFirstStep + step_of + (place.z < 0 ? 0 : kLampSteps)];
     const float cells_per_px = kept.z / radius;
-    const int half_side = int(kept.y), side = 2 * half_side + 1;
-    const vec2 place = vec2(offset.x, offset.y / at.aspect) * cells_per_px + float(half_side);
+    const vec2 from = vec2(2 * cell) + place.xy, gap = abs(vec2(8 * ivec2(gl_WorkGroupID.xy) + 4) - from) - 3.5;
+    const bool reaches = max(gap.x, gap.y / at.aspect) * cells_per_px <= kept.y;
+    const vec3 light = place.w * cells_per_px * cells_per_px / at.aspect * texelFetch(cells, ivec3(cell, kLampLight), 0).rgb;
+    return Lamp(from, place.z, cells_per_px, light, int(kept.x), reaches ? int(kept.y) : -1);
+}
+
+// The share of its light that a lamp sends to an offset in pixels.
+vec4 kernel_at(int lamp, vec2 offset) {
+    const int half_side = group_lamps[lamp].half_side, side = 2 * half_side + 1;
+    const vec2 place = vec2(offset.x, offset.y / at.aspect) * group_lamps[lamp].cells_per_px + float(half_side);
     if (any(lessThan(place, vec2(0))) || any(greaterThanEqual(place, vec2(side - 1)))) return vec4(0);
     const ivec2 low = ivec2(place);
     const vec2 share = place - vec2(low);
-    const int first = int(kept.x) + low.y * side + low.x;
-    return cells_per_px * cells_per_px / at.aspect *
-           mix(mix(lens[first], lens[first + 1], share.x), mix(lens[first + side], lens[first + side + 1], share.x), share.y);
+    const int first = group_lamps[lamp].first + low.y * side + low.x;
+    return mix(mix(lens[first], lens[first + 1], share.x), mix(lens[first + side], lens[first + side + 1], share.x), share.y);
 }
 
 // Visible share of a lamp behind focus from a pixel: on its way to (x, y) light has its radius at `from` and
@@ -60,24 +77,30 @@ float let_through(vec2 from, vec2 to, float radius, float near_px) {
     return 1 - min(hidden, 1.0);
 }
 
-// Adds the lamps of one tile, in the order of its cells.
-void add_lamps(ivec2 tile, uvec2 mask, vec2 pixel, float near_px, inout vec4 near, inout vec4 back) {
+// Adds the lamps of one tile, in the order of its cells. least_px: no radius between them and the pixel is smaller. All
+// invocations of the group together.
+void add_lamps(ivec2 tile, uvec2 mask, vec2 pixel, float near_px, float least_px, inout vec4 near, inout vec4 back) {
+    const int own = int(gl_LocalInvocationIndex);
+    barrier();
+    if ((mask[own / 32] >> (own % 32) & 1u) != 0u) group_lamps[own] = lamp_of_cell(8 * tile + ivec2(own % 8, own / 8));
+    barrier();
     for (int half_of = 0; half_of < 2; ++half_of)
         for (uint left = mask[half_of]; left != 0u; left &= left - 1u) {
             const int i = findLSB(left) + 32 * half_of;
-            const ivec2 cell = 8 * tile + ivec2(i % 8, i / 8);
-            const vec4 lamp = texelFetch(cells, ivec3(cell, kLampPlace), 0);
-            const vec2 from = vec2(2 * cell) + lamp.xy;
-            const vec4 share = kernel_at(pixel - from, lamp.z);
+            if (group_lamps[i].half_side < 0) continue;
+            const vec2 from = group_lamps[i].from;
+            const vec4 share = kernel_at(i, pixel - from);
             if (share.a == 0) continue;
-            vec4 light = share * vec4(lamp.w * texelFetch(cells, ivec3(cell, kLampLight), 0).rgb, 0);
-            if (near_px > 0.5) light *= let_through(from, pixel, lamp.z, near_px);
-            if (lamp.z < 0) near += light;
-            else back += light * seen(from, pixel, lamp.z);
+            const float radius = group_lamps[i].radius;
+            vec4 light = share * vec4(group_lamps[i].light, 0);
+            if (near_px > 0.5) light *= let_through(from, pixel, radius, near_px);
+            if (radius < 0) near += light;
+            else if (least_px >= 0.95 * radius) back += light;  // nothing is nearer
+            else back += light * seen(from, pixel, radius);
         }
 }
 
-shared uvec3 heads[64];  // which cells of a tile have lamps, and where the tile is
+shared uvec4 heads[64];  // which cells of a tile have lamps; where the tile is; the smallest radius up to there
 shared uint head_words[2];
 
 // True if lamps of a tile, at most this wide, may reach a pixel of the group.
@@ -85,6 +108,15 @@ bool reaches_group(ivec2 tile, float radius_px) {
     const float wide = 1.25 * radius_px + 2 + radius_px / 16;  // what a kernel covers, and its rim
     const ivec2 group = 8 * ivec2(gl_WorkGroupID.xy), gap = max(kTile * tile - group - 7, group - kTile * tile - kTile + 1);
     return max(float(gap.x) - 0.5, (float(gap.y) - 0.5) / at.aspect) <= wide;
+}
+
+// The smallest signed radius of the tiles between two, and of these.
+float least_between(ivec2 a, ivec2 b) {
+    const ivec2 low = min(a, b), high = max(a, b);
+    float least = at.most_px;
+    for (int y = low.y; y <= high.y; ++y)
+        for (int x = low.x; x <= high.x; ++x) least = min(least, reach[y * at.tiles.x + x].w);
+    return least;
 }
 
 // All invocations of the group together: each looks at a tile of the box; what none of their pixels sees costs them no more.
@@ -102,15 +134,15 @@ void add_all_lamps(ivec2 pixel, float near_px, inout vec4 near, inout vec4 back)
             const ivec2 tile = box.xy + ivec2(i % across, i / across);
             const uvec4 head = lamps[tile.y * at.tiles.x + tile.x];
             if ((head.x | head.y) != 0u && reaches_group(tile, uintBitsToFloat(head.z))) {
-                heads[own] = uvec3(head.xy, uint(tile.x) | uint(tile.y) << 16);
+                heads[own] = uvec4(head.xy, uint(tile.x) | uint(tile.y) << 16, floatBitsToUint(least_between(tile, own_tile)));
                 atomicOr(head_words[own / 32u], 1u << (own % 32u));
             }
         }
         barrier();
         for (uint word = 0u; word < 2u; ++word)
             for (uint left = head_words[word]; left != 0u; left &= left - 1u) {
-                const uvec3 head = heads[findLSB(left) + 32 * int(word)];
-                add_lamps(ivec2(head.z & 0xffffu, head.z >> 16), head.xy, vec2(pixel) + 0.5, near_px, near, back);
+                const uvec4 head = heads[findLSB(left) + 32 * int(word)];
+                add_lamps(ivec2(head.z & 0xffffu, head.z >> 16), head.xy, vec2(pixel) + 0.5, near_px, uintBitsToFloat(head.w), near, back);
             }
     }
 }
