@@ -92,7 +92,7 @@ Rgba KnownSurfaces::wide_colour(Place at, Direction outwards, float distance_px)
     const float blur_px = std::abs(at.coc_px), wide = model.wide_share * std::max(distance_px, blur_px);
     Rgba sum = colour(at.x, at.y);
     float total = 1;
-    for (const float out : {0.0f, std::min(model.deepest_px, model.deep_share * blur_px)})
+    for (const float out : {0.0f, model.deep_share * blur_px})
         for (const float aside : {-wide, 0.0f, wide}) {
             const int dx = nearest_pixel(out * outwards.x - aside * outwards.y),
                       dy = nearest_pixel(out * outwards.y + aside * outwards.x);

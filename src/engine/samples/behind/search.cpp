@@ -98,8 +98,7 @@ std::array<Found, kHits> SurfaceSearch::look(const Start& from, std::size_t k) c
         const float c = block.farthest > behind ? start[step->offset] : behind;
         if (c > behind && c > own + step->t * own_per_px + completion_model.step_px) {
             hits[n++] = {true, int(u), int(v), c, step->t};
-            longest =
-                std::min(longest, completion_model.search_factor * step->t + completion_model.search_more_px);
+            longest = std::min(longest, completion_model.search_factor * step->t);
             behind = c + 2 * completion_model.step_px;
             if (n == kHits || behind >= farthest_) break;
         }

@@ -147,7 +147,7 @@ private:
     // Traced points next to the gap, about as many on either side as the gap is long.
     static std::span<const PlanePoint> of_both(const OutlineEnd& a, const OutlineEnd& b, PlanePoint to_b,
                                                std::span<PlanePoint> points) {
-        const int most = std::max(int(completion_model.outline_evidence_px), int(std::hypot(to_b.x, to_b.y)));
+        const int most = std::max(kLeastTracedPx, int(std::hypot(to_b.x, to_b.y)));
         std::size_t n = 0;
         for (const PlanePoint& p : evidence(a, most)) points[n++] = p;
         for (const PlanePoint& p : evidence(b, most)) points[n++] = {to_b.x + p.x, to_b.y + p.y};

@@ -103,9 +103,7 @@ DepthSide depth_side(View<const float> coc, PixelAt pixel, float surface) {
 
 bool line_or_arc(const FittedArc& line, const FittedArc& arc, Arc& best) {
     const CompletionModel& model = completion_model;
-    const float line2 = line.mean_px * line.mean_px, arc2 = arc.mean_px * arc.mean_px;
-    const bool is_line =
-        tells(line) && (line.mean_px < model.outline_line_px || line2 < model.outline_as_well * arc2);
+    const bool is_line = tells(line) && (line.mean_px < model.outline_line_px || line.mean_px < arc.mean_px);
     best = is_line ? line.arc : arc.arc;
     return is_line || tells(arc);
 }
