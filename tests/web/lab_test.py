@@ -191,7 +191,7 @@ class Lab(Page):
     def test_discs_follow_a_drag(self):
         """Of each lens, the best of some moves of a slider: CPU milliseconds of the page to the first disc and to the exact one."""
         self.open()
-        for name, slider, most in (("doublet", "spherical", 100), ("tessar", "coma", 500), ("sigma-art-40", "coma", 500)):
+        for name, slider, most_ms in (("doublet", "spherical", 120), ("tessar", "coma", 500), ("sigma-art-40", "coma", 1000)):
             self.done("lab.use(args[0])", {"name": name, "text": None, "look": {}})
             self.idle()
             coarse, exact = [], []
@@ -207,7 +207,7 @@ class Lab(Page):
                     times.append(self.cpu_ms() - start)
                 self.idle()
             print(f"{name}: {min(coarse):.0f} ms of CPU from a move to the coarse disc, {min(exact):.0f} ms to the exact one", flush=True)
-            self.assertLess(min(exact), 2 * most)  # twice: other programs slow down memory and caches
+            self.assertLess(min(exact), most_ms)
 
     def test_it_answers_within_a_second_on_a_slow_machine(self):
         self.browser.execute_cdp_cmd("Emulation.setCPUThrottlingRate", {"rate": 4})
@@ -272,7 +272,7 @@ class Lab(Page):
         paths = {SITE / urllib.parse.urlparse(path).path.lstrip("/") for path in self.server.asked}
         self.assertIn(SITE / "petzval-lab.wasm", paths)
         self.assertNotIn(SITE / "petzval-picture.wasm", paths)
-        self.assertLessEqual(sum(len(gzip.compress(path.read_bytes(), 9)) for path in paths), 400_000)
+        self.assertLessEqual(sum(len(gzip.compress(path.read_bytes(), 9)) for path in paths), 380_000)
 
     def test_a_patents_table_becomes_a_lens(self):
         self.open()
