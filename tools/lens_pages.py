@@ -1,6 +1,6 @@
 """Writes one page per lens that ships, readable without script: its numbers, its source, its discs and a link into the lab.
 
-Usage: lens_pages.py PETZVAL VALIDATOR FOLDER. Pages need lab.css one folder up. Discs that are there already stay.
+Usage: lens_pages.py PETZVAL VALIDATOR FOLDER. Pages need lab.css one folder up. Discs newer than their lens file stay.
 """
 import base64
 import concurrent.futures
@@ -10,6 +10,7 @@ import pathlib
 import subprocess
 import sys
 
+ROOT = pathlib.Path(__file__).resolve().parent.parent
 # Signed radius of the circle of confusion in pixels of 1920 x 1080, field position, file name, caption.
 DISCS = ((-40, "0,0", "front", "40 px in front of focus"), (-12, "0,0", "front-12", "12 px in front"),
          (12, "0,0", "behind-12", "12 px behind"), (40, "0,0", "behind", "40 px behind focus"),
@@ -78,8 +79,9 @@ def lens_page(lens, facts, told_of_it):
 def draw(petzval, folder, name, disc):
     coc, field, file, _ = disc
     path = folder / f"{name}-{file}.png"
-    if not path.exists():
-        subprocess.run([petzval, "lens", "psf", name, "--defocus", str(coc), "--field", field, "-o", path, "--quiet"], check=True, capture_output=True)
+    source = ROOT / "lenses" / f"{name}.json"
+    if not path.exists() or (source.exists() and path.stat().st_mtime < source.stat().st_mtime):
+        subprocess.run([petzval, "lens", "psf", name, "--defocus", str(coc), "--field", field, "-o", path, "--quiet", "--overwrite"], check=True, capture_output=True)
 
 
 def write_pages(petzval, validator, folder):

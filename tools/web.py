@@ -1,6 +1,7 @@
 """Builds the lens lab into build/web: web/lab, petzval's rooms as WebAssembly, a scene, and a page per lens.
 
-Usage: web.py PETZVAL [--serve]; --serve: then serves it on loopback.
+Usage: web.py PETZVAL [--serve | --short]; --serve: then serves it on loopback; --short: the lab alone, without the pages
+of the lenses and the demo of three.js.
 """
 import functools
 import http.server
@@ -23,7 +24,7 @@ def run(*command):
         sys.exit(done.stdout + f"web: {command[0]} failed")
 
 
-def build(petzval):
+def build(petzval, short=False):
     if not (KERNEL / "build.ninja").exists():
         run("emcmake", "cmake", "-S", "web/kernel", "-B", KERNEL, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
             *([f"-DCMAKE_{language}_COMPILER_LAUNCHER=ccache" for language in ("C", "CXX")] if shutil.which("ccache") else []))
@@ -40,6 +41,8 @@ def build(petzval):
     if not scene.exists():  # Debian's Python: numpy is its package
         run("/usr/bin/python3", "tools/scene_textures.py", petzval, "night", "480", "270", scene)
     shutil.copy(scene, SITE)
+    if short:
+        return
     validator = pathlib.Path(petzval).parents[2] / "tests/lens_validation/petzval_validate_lenses"
     run(sys.executable, "tools/lens_pages.py", petzval, validator, KERNEL / "lenses")
     shutil.copytree(KERNEL / "lenses", SITE / "lenses")
@@ -107,9 +110,9 @@ def serve():
 
 if __name__ == "__main__":
     petzval, *words = sys.argv[1:]
-    if words not in ([], ["--serve"]):
-        sys.exit("web: takes --serve or nothing")
-    build(petzval)
+    if words not in ([], ["--serve"], ["--short"]):
+        sys.exit("web: takes --serve, --short or nothing")
+    build(petzval, short=words == ["--short"])
     print(SITE, flush=True)
-    if words:
+    if words == ["--serve"]:
         serve()
