@@ -15,6 +15,7 @@
  * - Release: after the pass, the result was written by VK_ACCESS_SHADER_WRITE_BIT of that stage, in
  *   VK_IMAGE_LAYOUT_GENERAL; no image changed its layout. The host's next barrier or semaphore goes on from
  * there.
+ * - Dispatches have labels, programs and images have names, where the host enabled VK_EXT_debug_utils.
  * - What one pass records runs on queues of one family, one submission after the other: its own images serve
  *   every frame in flight, and its first barrier waits for compute work that was submitted to the queue
  * before.
@@ -46,12 +47,16 @@ typedef struct petzval_pass_settings {
     uint32_t frames_in_flight; /* slots, 1…16; 0: 2 */
     /* VK_FORMAT_R16G16B16A16_SFLOAT, or VK_FORMAT_R32G32B32A32_SFLOAT; VK_FORMAT_UNDEFINED: the former. */
     VkFormat result_format;
+    /* The host's cache for the five programs, which petzval_pass_open() makes; null: none. It may be
+     * destroyed afterwards. */
+    VkPipelineCache pipeline_cache;
 } petzval_pass_settings;
 
 /* The ideal lens until petzval_pass_set_lens(). */
 PETZVAL_C_API petzval_status petzval_pass_open(const petzval_pass_settings* settings, petzval_pass** pass);
 /* Nothing that it recorded may be under way, here and when it is closed. The lens stays, made anew for pixels
- * of this size: as long as petzval_pass_set_lens() takes. If it fails, the pass is as it was. */
+ * of this size: as long as petzval_pass_set_lens() takes. The programs stay. If it fails, the pass is as it
+ * was. */
 PETZVAL_C_API petzval_status petzval_pass_resize(petzval_pass* pass, uint32_t width, uint32_t height);
 PETZVAL_C_API void petzval_pass_close(petzval_pass* pass);
 

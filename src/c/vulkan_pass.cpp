@@ -52,6 +52,7 @@ Result<RealtimeSettings> settings_of(const petzval_pass_settings& given) {
         given.result_format != VK_FORMAT_R16G16B16A16_SFLOAT)
         return Error{ErrorCode::InvalidArgument,
                      "settings.result_format must be R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT"};
+    settings.cache = given.pipeline_cache;
     return settings;
 }
 

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -201,15 +202,55 @@ private:
     VkCommandBuffer commands_ = VK_NULL_HANDLE;
 };
 
+// Calls of a pass to the host's Vulkan, counted by functions that stand before the host's.
+struct Seen {
+    PFN_vkCreateComputePipelines create_pipelines = nullptr;
+    int pipelines = 0;
+    VkPipelineCache cache = VK_NULL_HANDLE;
+    int open_labels = 0;
+    std::vector<std::string> labels, names;
+} seen;
+
+VKAPI_ATTR VkResult VKAPI_CALL see_pipelines(VkDevice device, VkPipelineCache cache, std::uint32_t count,
+                                             const VkComputePipelineCreateInfo* infos,
+                                             const VkAllocationCallbacks* memory, VkPipeline* made) {
+    seen.pipelines += int(count), seen.cache = cache;
+    return seen.create_pipelines(device, cache, count, infos, memory, made);
+}
+VKAPI_ATTR VkResult VKAPI_CALL see_name(VkDevice, const VkDebugUtilsObjectNameInfoEXT* info) {
+    seen.names.emplace_back(info->pObjectName);
+    return VK_SUCCESS;
+}
+VKAPI_ATTR void VKAPI_CALL see_label(VkCommandBuffer, const VkDebugUtilsLabelEXT* label) {
+    seen.labels.emplace_back(label->pLabelName), ++seen.open_labels;
+}
+VKAPI_ATTR void VKAPI_CALL see_end_of_label(VkCommandBuffer) { --seen.open_labels; }
+
+PFN_vkVoidFunction VKAPI_CALL seen_on_device(VkDevice device, const char* name) {
+    const PFN_vkVoidFunction found = vkGetDeviceProcAddr(device, name);
+    if (std::string(name) != "vkCreateComputePipelines") return found;
+    seen.create_pipelines = reinterpret_cast<PFN_vkCreateComputePipelines>(found);
+    return reinterpret_cast<PFN_vkVoidFunction>(see_pipelines);
+}
+PFN_vkVoidFunction VKAPI_CALL seen_on_instance(VkInstance instance, const char* name) {
+    const std::string asked = name;
+    if (asked == "vkGetDeviceProcAddr") return reinterpret_cast<PFN_vkVoidFunction>(seen_on_device);
+    if (asked == "vkSetDebugUtilsObjectNameEXT") return reinterpret_cast<PFN_vkVoidFunction>(see_name);
+    if (asked == "vkCmdBeginDebugUtilsLabelEXT") return reinterpret_cast<PFN_vkVoidFunction>(see_label);
+    if (asked == "vkCmdEndDebugUtilsLabelEXT") return reinterpret_cast<PFN_vkVoidFunction>(see_end_of_label);
+    return vkGetInstanceProcAddr(instance, name);
+}
+
 class EmbeddedPass : public testing::Test {
 protected:
     static void SetUpTestSuite() { host_ = open_host(); }
     static void TearDownTestSuite() { close_host(host_); }
 
-    static Pass open(VkExtent2D size) {
+    static Pass open(VkExtent2D size, PFN_vkGetInstanceProcAddr find = vkGetInstanceProcAddr,
+                     VkPipelineCache cache = VK_NULL_HANDLE) {
         petzval_pass_settings settings = {};
         settings.size = sizeof settings;
-        settings.get_instance_proc_addr = vkGetInstanceProcAddr;
+        settings.get_instance_proc_addr = find, settings.pipeline_cache = cache;
         settings.instance = host_.instance, settings.physical_device = host_.physical;
         settings.device = host_.device, settings.width = size.width, settings.height = size.height;
         settings.result_format = VK_FORMAT_R32G32B32A32_SFLOAT;
@@ -243,6 +284,31 @@ Floats laid_over(const Floats& layer, const Floats& below) {
     Floats all = layer;
     for (std::size_t i = 0; i < all.size(); ++i) all[i] += (1 - layer[i / 4 * 4 + 3]) * below[i];
     return all;
+}
+
+TEST_F(EmbeddedPass, ProgramsAreMadeOnceWithTheHostsCacheAndNamed) {
+    VkPipelineCacheCreateInfo info = {};
+    info.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO;
+    VkPipelineCache cache = VK_NULL_HANDLE;
+    ASSERT_EQ(vkCreatePipelineCache(host_.device, &info, nullptr, &cache), VK_SUCCESS);
+    seen = {};
+    {
+        const Pass pass = open({64, 80}, seen_on_instance, cache);
+        EXPECT_EQ(seen.pipelines, 5);
+        EXPECT_EQ(seen.cache, cache);
+        vkDestroyPipelineCache(host_.device, cache, nullptr);
+        ASSERT_EQ(petzval_pass_resize(pass.get(), kSize.width, kSize.height), PETZVAL_OK);
+        EXPECT_EQ(seen.pipelines, 5) << "resizing made programs anew";
+        const Pass fresh = open(kSize);
+        Stage stage(host_, scene_of(kSize));
+        EXPECT_EQ(stage.drawn(pass.get()), stage.drawn(fresh.get()));
+    }
+    const std::vector<std::string> steps{"petzval measure", "petzval split", "petzval reach",
+                                         "petzval gather", "petzval combine"};
+    EXPECT_EQ(seen.labels, steps);
+    EXPECT_EQ(seen.open_labels, 0);
+    for (const std::string& step : steps)
+        EXPECT_NE(std::find(seen.names.begin(), seen.names.end(), step), seen.names.end()) << step;
 }
 
 TEST_F(EmbeddedPass, TheQualityOfALookIsThatOfItsFrames) {

@@ -22,6 +22,9 @@ namespace petzval::device::vulkan {
     X(vkCreateDevice)                           \
     X(vkCreateDebugUtilsMessengerEXT)           \
     X(vkDestroyDebugUtilsMessengerEXT)          \
+    X(vkSetDebugUtilsObjectNameEXT)             \
+    X(vkCmdBeginDebugUtilsLabelEXT)             \
+    X(vkCmdEndDebugUtilsLabelEXT)               \
     X(vkGetDeviceProcAddr)
 
 #define PETZVAL_VK_DEVICE(X)         \

@@ -27,7 +27,7 @@ void make_layout(const Opened& opened, const ShaderWords& words, Program& progra
 }
 
 VkPipeline make_pipeline(const Opened& opened, const ShaderWords& words, VkPipelineLayout layout,
-                         std::uint32_t variant, VkPipelineCreateFlags flags) {
+                         std::uint32_t variant, VkPipelineCreateFlags flags, VkPipelineCache cache) {
     const Functions& vk = *opened.vk;
     VkShaderModuleCreateInfo module = {};
     module.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
@@ -44,8 +44,7 @@ VkPipeline make_pipeline(const Opened& opened, const ShaderWords& words, VkPipel
     info.stage.module = code, info.stage.pName = "main", info.stage.pSpecializationInfo = &special;
     info.layout = layout;
     VkPipeline pipeline = VK_NULL_HANDLE;
-    const VkResult made =
-        vk.vkCreateComputePipelines(opened.device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline);
+    const VkResult made = vk.vkCreateComputePipelines(opened.device, cache, 1, &info, nullptr, &pipeline);
     vk.vkDestroyShaderModule(opened.device, code, nullptr);
     check(made, opened.name, "a program");
     return pipeline;
@@ -53,13 +52,13 @@ VkPipeline make_pipeline(const Opened& opened, const ShaderWords& words, VkPipel
 
 }  // namespace
 
-Program make_program(const Opened& opened, Shader shader, std::uint32_t variant,
-                     VkPipelineCreateFlags flags) {
+Program make_program(const Opened& opened, Shader shader, std::uint32_t variant, VkPipelineCreateFlags flags,
+                     VkPipelineCache cache) {
     const ShaderWords words = words_of(shader);
     Program program;
     try {
         make_layout(opened, words, program);
-        program.pipeline = make_pipeline(opened, words, program.layout, variant, flags);
+        program.pipeline = make_pipeline(opened, words, program.layout, variant, flags, cache);
     } catch (...) {
         destroy_program(opened, program);
         throw;

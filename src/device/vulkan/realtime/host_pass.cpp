@@ -55,9 +55,10 @@ Result<std::unique_ptr<HostPass>> HostPass::open(const Host& host, const Realtim
     return made;
 }
 
-Result<std::unique_ptr<RealtimePass>> HostPass::made(const RealtimeSettings& settings) {
+Result<std::unique_ptr<RealtimePass>> HostPass::made(const RealtimeSettings& settings) const {
+    const auto programs = pass_ ? pass_->programs() : nullptr;
     try {
-        return std::make_unique<RealtimePass>(opened_, memory_, settings);
+        return std::make_unique<RealtimePass>(opened_, memory_, settings, programs);
     } catch (const Failed& failed) {
         return failed.error;
     }

@@ -42,7 +42,7 @@ public:
 
 private:
     HostPass() = default;
-    Result<std::unique_ptr<RealtimePass>> made(const RealtimeSettings& settings);
+    Result<std::unique_ptr<RealtimePass>> made(const RealtimeSettings& settings) const;
 
     Functions vk_;
     Opened opened_;

@@ -2,7 +2,9 @@
 
 #include "device/vulkan/driver/failure.h"
 
+#include <array>
 #include <cstring>
+#include <string>
 #include <utility>
 
 namespace petzval::device::vulkan {
@@ -13,16 +15,59 @@ constexpr VkDescriptorType kSampled = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                            kBuffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 constexpr std::uint32_t kGroup = 8;   // invocations along a side
 constexpr std::uint32_t kLevels = 4;  // of cells
+constexpr std::array kNames{"measure", "split", "reach", "gather", "combine"};
+
+Shader shader_of(std::size_t step, bool has_float_result) {
+    const std::array shaders{Shader::RealtimeMeasure, Shader::RealtimeSplit, Shader::RealtimeReach,
+                             Shader::RealtimeGather,
+                             has_float_result ? Shader::RealtimeCombine32 : Shader::RealtimeCombine16};
+    return shaders[step];
+}
+
+// For tools that show a host's frames; nothing where the host did not enable VK_EXT_debug_utils.
+void name(const Opened& opened, VkObjectType type, std::uint64_t object, const std::string& said) {
+    if (!opened.vk->vkSetDebugUtilsObjectNameEXT) return;
+    VkDebugUtilsObjectNameInfoEXT info = {};
+    info.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT;
+    info.objectType = type, info.objectHandle = object, info.pObjectName = said.c_str();
+    opened.vk->vkSetDebugUtilsObjectNameEXT(opened.device, &info);
+}
+template <typename Handle>
+std::uint64_t word_of(Handle handle) {
+    return reinterpret_cast<std::uint64_t>(handle);
+}
 
 }  // namespace
 
+RealtimePrograms::RealtimePrograms(const Opened& opened, const RealtimeSettings& settings) : opened_(opened) {
+    const VkPipelineCreateFlags flags = settings.is_cut ? VK_PIPELINE_CREATE_DISPATCH_BASE_BIT : 0;
+    try {
+        for (std::size_t step = 0; step < programs_.size(); ++step) {
+            programs_[step] =
+                make_program(opened_, shader_of(step, settings.has_float_result), 0, flags, settings.cache);
+            name(opened_, VK_OBJECT_TYPE_PIPELINE, word_of(programs_[step].pipeline),
+                 std::string("petzval ") + kNames[step]);
+        }
+    } catch (...) {
+        destroy();
+        throw;
+    }
+}
+
+RealtimePrograms::~RealtimePrograms() { destroy(); }
+
+void RealtimePrograms::destroy() {
+    for (const Program& program : programs_) destroy_program(opened_, program);
+}
+
 RealtimePass::RealtimePass(const Opened& opened, const VkPhysicalDeviceMemoryProperties& memory,
-                           const RealtimeSettings& settings)
+                           const RealtimeSettings& settings, std::shared_ptr<const RealtimePrograms> programs)
     : opened_(opened),
       vk_(*opened.vk),
       memory_(memory),
       settings_(settings),
       heap_(opened, memory, std::size_t(1) << 20),
+      programs_(std::move(programs)),
       slots_(settings.slots) {
     try {
         make();
@@ -52,9 +97,9 @@ void RealtimePass::make() {
     lens_ = heap_.allocate(Kind::OnDevice, engine::RealtimeLens::kBytes);
     make_sampler(VK_FILTER_NEAREST, nearest_);
     make_sampler(VK_FILTER_LINEAR, linear_);
-    const VkPipelineCreateFlags flags = settings_.is_cut ? VK_PIPELINE_CREATE_DISPATCH_BASE_BIT : 0;
-    for (std::size_t step = 0; step < kSteps; ++step)
-        programs_[step] = make_program(opened_, shader_of(step), 0, flags);
+    if (!programs_) programs_ = std::make_shared<const RealtimePrograms>(opened_, settings_);
+    name(opened_, VK_OBJECT_TYPE_IMAGE, word_of(cells_.handle()), "petzval cells");
+    name(opened_, VK_OBJECT_TYPE_IMAGE, word_of(gathered_.handle()), "petzval gathered");
     make_sets();
 }
 
@@ -69,18 +114,11 @@ void RealtimePass::make_sampler(VkFilter filter, VkSampler& sampler) const {
     check(vk_.vkCreateSampler(opened_.device, &info, nullptr, &sampler), opened_.name, "a sampler");
 }
 
-Shader RealtimePass::shader_of(std::size_t step) const {
-    const std::array shaders{
-        Shader::RealtimeMeasure, Shader::RealtimeSplit, Shader::RealtimeReach, Shader::RealtimeGather,
-        settings_.has_float_result ? Shader::RealtimeCombine32 : Shader::RealtimeCombine16};
-    return shaders[step];
-}
-
 void RealtimePass::make_sets() {
     const std::uint32_t slots = settings_.slots;
     std::array<VkDescriptorPoolSize, 3> sizes{{{kSampled, 0}, {kStored, 0}, {kBuffer, 0}}};
     for (std::size_t step = 0; step < kSteps; ++step)
-        for (const VkDescriptorType type : words_of(shader_of(step)).bindings)
+        for (const VkDescriptorType type : words_of(shader_of(step, settings_.has_float_result)).bindings)
             for (VkDescriptorPoolSize& size : sizes)
                 if (size.type == type) size.descriptorCount += slots;
     VkDescriptorPoolCreateInfo pool = {};
@@ -89,7 +127,7 @@ void RealtimePass::make_sets() {
     pool.poolSizeCount = std::uint32_t(sizes.size()), pool.pPoolSizes = sizes.data();
     check(vk_.vkCreateDescriptorPool(opened_.device, &pool, nullptr, &pool_), opened_.name, "descriptors");
     std::array<VkDescriptorSetLayout, kSteps> layouts = {};
-    for (std::size_t i = 0; i < kSteps; ++i) layouts[i] = programs_[i].set_layout;
+    for (std::size_t i = 0; i < kSteps; ++i) layouts[i] = (*programs_)[i].set_layout;
     VkDescriptorSetAllocateInfo info = {};
     info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
     info.descriptorPool = pool_, info.descriptorSetCount = kSteps, info.pSetLayouts = layouts.data();
@@ -103,7 +141,6 @@ void RealtimePass::make_sets() {
 
 void RealtimePass::destroy() {
     if (pool_) vk_.vkDestroyDescriptorPool(opened_.device, pool_, nullptr);
-    for (const Program& program : programs_) destroy_program(opened_, program);
     for (VkSampler sampler : {nearest_, linear_})
         if (sampler) vk_.vkDestroySampler(opened_.device, sampler, nullptr);
 }
@@ -263,7 +300,7 @@ void RealtimePass::bind(VkCommandBuffer commands, const Slot& slot, Step step, b
     if (step > 0 && !(plant && step == kGather))
         order(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
               VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT);
-    const Program& program = programs_[step];
+    const Program& program = (*programs_)[step];
     vk_.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, program.pipeline);
     vk_.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, program.layout, 0, 1,
                                 &slot.sets[step], 0, nullptr);
@@ -274,15 +311,20 @@ void RealtimePass::bind(VkCommandBuffer commands, const Slot& slot, Step step, b
 void RealtimePass::record(VkCommandBuffer commands, std::uint32_t slot, const RealtimeImages& images,
                           const RealtimeOptics& optics) {
     begin(commands, slot, images, optics);
+    const bool has_labels = vk_.vkCmdBeginDebugUtilsLabelEXT && vk_.vkCmdEndDebugUtilsLabelEXT;
     for (const Step step : {kMeasure, kSplit, kReach, kGather, kCombine}) {
+        const std::string said = std::string("petzval ") + kNames[step];
+        VkDebugUtilsLabelEXT label = {};
+        label.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT, label.pLabelName = said.c_str();
+        if (has_labels) vk_.vkCmdBeginDebugUtilsLabelEXT(commands, &label);
         bind(commands, slots_[slot], step, false);
         const Groups all = groups(step);
         vk_.vkCmdDispatch(commands, all.x, all.y, 1);
+        if (has_labels) vk_.vkCmdEndDebugUtilsLabelEXT(commands);
     }
 }
 
 void RealtimePass::record(Recording& recording, std::uint32_t slot, Step step, const Part& part, bool plant) {
-    static constexpr std::array kNames{"measure", "split", "reach", "gather", "combine"};
     const Groups all = groups(step);
     bind(recording.commands(), slots_[slot], step, plant);
     recording.begin_pass(kNames[step], {least_bytes(step) * part.groups() / (std::size_t(all.x) * all.y), 0});

@@ -15,10 +15,11 @@
 namespace petzval::device::vulkan {
 
 struct RealtimeSettings {
-    std::uint32_t width = 0, height = 0;  // pixels
-    std::uint32_t slots = 1;              // frames that may be in flight
-    bool has_float_result = false;        // rgba32f; else rgba16f
-    bool is_cut = false;                  // frames are recorded in parts
+    std::uint32_t width = 0, height = 0;     // pixels
+    std::uint32_t slots = 1;                 // frames that may be in flight
+    bool has_float_result = false;           // rgba32f; else rgba16f
+    bool is_cut = false;                     // frames are recorded in parts
+    VkPipelineCache cache = VK_NULL_HANDLE;  // for programs; outlives their making alone
 };
 
 // A signed radius, in pixels, is add_px + per_depth_px * depth.
@@ -35,12 +36,29 @@ struct RealtimeImages {
     VkImageView result = VK_NULL_HANDLE;  // in VK_IMAGE_LAYOUT_GENERAL
 };
 
+// The programs of a pass, which serve frames of any size. Throws Failed.
+class RealtimePrograms {
+public:
+    // opened.vk outlives this.
+    RealtimePrograms(const Opened& opened, const RealtimeSettings& settings);
+    ~RealtimePrograms();
+    RealtimePrograms(const RealtimePrograms&) = delete;
+    RealtimePrograms& operator=(const RealtimePrograms&) = delete;
+    const Program& operator[](std::size_t step) const { return programs_[step]; }
+
+private:
+    void destroy();
+    const Opened opened_;
+    std::array<Program, 5> programs_;
+};
+
 // Everything is made at once and kept. Throws Failed.
 class RealtimePass {
 public:
-    // opened.vk outlives this. Requires: width and height 1…16384, slots 1…16.
+    // opened.vk outlives this. programs: of a pass with the same settings, whatever its size; null: made.
+    // Requires: width and height 1…16384, slots 1…16.
     RealtimePass(const Opened& opened, const VkPhysicalDeviceMemoryProperties& memory,
-                 const RealtimeSettings& settings);
+                 const RealtimeSettings& settings, std::shared_ptr<const RealtimePrograms> programs = {});
     ~RealtimePass();
     RealtimePass(const RealtimePass&) = delete;
     RealtimePass& operator=(const RealtimePass&) = delete;
@@ -61,6 +79,7 @@ public:
     // Requires: settings.is_cut. `plant` leaves out a barrier, to see that it is missed.
     void record(Recording& recording, std::uint32_t slot, Step step, const Part& part, bool plant = false);
     Groups groups(Step step) const;
+    const std::shared_ptr<const RealtimePrograms>& programs() const { return programs_; }
     // Lamps after step kReach: per tile, row by row, its cells with lamps (two words of four), and the first
     // and last column and row of the tiles whose lamps reach it.
     const Piece& lamps_kept() const { return kept_; }
@@ -84,7 +103,6 @@ private:
     void make();
     void destroy();
     void make_sampler(VkFilter filter, VkSampler& sampler) const;
-    Shader shader_of(std::size_t step) const;
     void make_sets();
     void write_own(const Slot& slot) const;
     void write_given(const Slot& slot, const RealtimeImages& images) const;
@@ -105,7 +123,7 @@ private:
     DeviceImage cells_, gathered_;
     Piece surroundings_, tiles_, lamps_, reach_, boxes_, kept_, lens_;
     VkSampler nearest_ = VK_NULL_HANDLE, linear_ = VK_NULL_HANDLE;
-    std::array<Program, kSteps> programs_;
+    std::shared_ptr<const RealtimePrograms> programs_;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
     std::vector<Slot> slots_;
     std::mutex mutex_;  // of the next line
