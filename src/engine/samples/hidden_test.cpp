@@ -290,6 +290,28 @@ TEST(Hidden, ASmallLampHasTheLightOfItsRimAlsoNextToSomethingNearer) {
     }
 }
 
+TEST(Hidden, ALampJustBeforeAPostIsNotBehindIt) {
+    // The lamp is nearer than the post by less than a step, and covers two of its pixels: few of those
+    // nearby.
+    constexpr float kLampPx = 3.5f, kPostPx = 4.3f, kWallPx = 5.6f;
+    Drawn d;
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+            const bool post = x >= 20 && x < 24;
+            d.colour(x, y) = grey(post ? 0.02f : 0.03f), d.coc(x, y) = post ? kPostPx : kWallPx;
+        }
+    for (const int y : {24, 25})
+        d.colour(19, y) = grey(4), d.colour(20, y) = grey(10), d.coc(20, y) = kLampPx;
+    const LitPicture picture{d.colour, {[](int, int, Rgba light) { return grey(std::min(light.g, 0.2f)); }}};
+    const auto mixtures = unmix_silhouettes(picture, d.coc, connections(d.coc, one_thread()), one_thread());
+    for (const int x : {19, 20}) {
+        const Mixture* m = mixtures.at(x, 24);
+        ASSERT_TRUE(m);
+        EXPECT_LT(m->far_light.g, 0.01f) << x;
+    }
+    EXPECT_FLOAT_EQ(mixtures.at(19, 24)->near_coc_px, kLampPx);
+}
+
 TEST(Hidden, LightOfALampBeforeANightSkyIsTheLamps) {
     // It sits on the edge of a dark thing, and shines into the pixel beside it as well: renderers filter
     // colour, not depth.

@@ -3,6 +3,7 @@
 #include "engine/samples/hidden.h"
 #include "engine/samples/outlines/outline.h"
 #include "engine/samples/silhouettes/two_surfaces.h"
+#include "laws/surfaces.h"
 
 #include <algorithm>
 #include <array>
@@ -135,6 +136,14 @@ float alike(Rgba a, Rgba b) {
     return cosine2 * cosine2 * cosine2 * cosine2;
 }
 
+// True if the pixel at `lit_px` lies before unlit ones from `nearest_px` to `farthest_px` as no slope of
+// theirs explains. The pixel then shows a lamp's own body: light from behind an edge makes depths farther,
+// not nearer.
+bool stands_before(float lit_px, float nearest_px, float farthest_px) {
+    const float slope = farthest_px - nearest_px;
+    return laws::is_in_front(lit_px, nearest_px, std::max(laws::kHiddenSheet.step_px, slope));
+}
+
 // Certainty that a lamp which lights the nearer side belongs to the surface of its brightest pixel. A lamp
 // that lights only a few pixels of that surface, and none that touches no silhouette, shines past its edge.
 float share_of_surface(const std::vector<LitPixel>& nearer) {
@@ -143,11 +152,16 @@ float share_of_surface(const std::vector<LitPixel>& nearer) {
                                             [](const auto& a, const auto& b) { return a.light < b.light; });
     if (brightest == nearer.end()) return 1;
     int pixels = 0, lit = 0;
+    float nearest_unlit = std::numeric_limits<float>::infinity(), farthest_unlit = -nearest_unlit;
     for (const LitPixel& p : nearer) {
         if (std::abs(p.coc_px - brightest->coc_px) > completion_model.step_px) continue;
         if (p.light > 0 && p.clean) return 1;
         ++pixels, lit += p.light > 0;
+        if (p.light > 0) continue;
+        nearest_unlit = std::min(nearest_unlit, p.coc_px);
+        farthest_unlit = std::max(farthest_unlit, p.coc_px);
     }
+    if (lit < pixels && stands_before(brightest->coc_px, nearest_unlit, farthest_unlit)) return 1;
     return std::clamp((float(lit) / float(pixels) - few_lit) / (many_lit - few_lit), few_lit, 1.0f);
 }
 
