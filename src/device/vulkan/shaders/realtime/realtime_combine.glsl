@@ -126,7 +126,7 @@ void main() {
     vec4 near_lamps = vec4(0), back_lamps = vec4(0);
     add_all_lamps(pixel, reaches.x, near_lamps, back_lamps);
     vec4 near = vec4(0);
-    float area = 0, is_known;
+    float area = 0, is_known = 1;
     if (reaches.x > 0.5) {
         const vec2 half_cell = 0.5 * smoothstep(4.0, 12.0, reaches.x) / vec2(8 * at.tiles);
         for (int i = 0; i < 4; ++i) {
@@ -135,10 +135,13 @@ void main() {
             area += 0.25 * textureLod(gathered, vec3(there, kGatheredArea), 0).x;
         }
     }
-    const vec4 back = back_at(pixel, radius, is_known);
-    const float hidden = blurred_share(-radius);
+    const float hidden = blurred_share(-radius), blurred = blurred_share(abs(radius));
     // A completely near pixel has no sharp part; some of its background may be known.
-    vec4 base = mix(own.back, back, is_known * blurred_share(abs(radius)));
+    vec4 base = own.back;
+    if (blurred > 0) {
+        const vec4 back = back_at(pixel, radius, is_known);
+        base = mix(base, back, is_known * blurred);
+    }
     base = own.near + (1 - own.area) * base;
     vec4 made = base;
     if (area > 0) {

@@ -63,7 +63,9 @@ Sum back_over(vec2 middle, float radius, float own_px, int which) {
         const vec4 there = read_cells(disc, tap, kBack);
         if (there.x == 0) continue;
         const float reaches = back_radius(there), ratio = reaches * per_own;
-        const float less = smoothstep(kAsBlurred, kLessBlurred, ratio), more = smoothstep(kUpTo, kMoreBlurred, ratio);
+        float less = 0, more = 0;  // most taps are about as blurred
+        if (ratio < kAsBlurred) less = smoothstep(kAsBlurred, kLessBlurred, ratio);
+        else if (ratio > kUpTo) more = smoothstep(kUpTo, kMoreBlurred, ratio);
         if (which == kAlike && there.x > 0.01) {
             less_sum += less * there.x * vec2(1, reaches * reaches);
             if (more > 0) sum.more_px = max(sum.more_px, reaches);
