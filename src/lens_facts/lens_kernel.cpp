@@ -132,21 +132,21 @@ Result<LensDisc> disc_of(const kernel::LensModel& lens, double coc_radius_px, Fi
 
 }  // namespace
 
-Result<LensDisc> lens_point_spread(const Lens& opened, const LensMount& mount, double coc_radius_px,
+Result<LensDisc> lens_point_spread(const Lens& lens, const LensMount& mount, double coc_radius_px,
                                    double field_x, double field_y, int size_px, bool raw) {
-    const auto lens = mounted(opened, mount);
-    if (!lens) return lens.error();
-    return disc_of(**lens, coc_radius_px, {field_x, field_y}, size_px, raw);
+    const auto model = mounted(lens, mount);
+    if (!model) return model.error();
+    return disc_of(**model, coc_radius_px, {field_x, field_y}, size_px, raw);
 }
 
-Result<std::vector<LensDisc>> lens_point_spreads(const Lens& opened, const LensMount& mount,
+Result<std::vector<LensDisc>> lens_point_spreads(const Lens& lens, const LensMount& mount,
                                                  std::span<const double> coc_radii_px, double field_x,
                                                  double field_y) {
-    const auto lens = mounted(opened, mount);
-    if (!lens) return lens.error();
+    const auto model = mounted(lens, mount);
+    if (!model) return model.error();
     std::vector<LensDisc> discs;
     for (const double radius : coc_radii_px) {
-        auto disc = disc_of(**lens, radius, {field_x, field_y}, 0, false);
+        auto disc = disc_of(**model, radius, {field_x, field_y}, 0, false);
         if (!disc) return disc.error();
         discs.push_back(std::move(*disc));
     }
@@ -176,11 +176,11 @@ Result<Camera> own_camera(const Lens& lens) {
     return camera;
 }
 
-Result<int> largest_disc_px(const Lens& opened, const LensMount& mount, double coc_radius_px) {
-    const auto lens = mounted(opened, mount);
-    if (!lens) return lens.error();
-    if (const Status status = check_radius(**lens, coc_radius_px); !status) return status.error();
-    return 2 * (int(std::ceil((*lens)->reach_px(coc_radius_px))) + kBorderPx) + 1;
+Result<int> largest_disc_px(const Lens& lens, const LensMount& mount, double coc_radius_px) {
+    const auto model = mounted(lens, mount);
+    if (!model) return model.error();
+    if (const Status status = check_radius(**model, coc_radius_px); !status) return status.error();
+    return 2 * (int(std::ceil((*model)->reach_px(coc_radius_px))) + kBorderPx) + 1;
 }
 
 namespace {
@@ -217,16 +217,16 @@ Result<TextureLens> TextureLens::make(const Lens& opened, const LensMount& mount
 
 }  // namespace
 
-Result<int> most_texture_rows(const Lens& opened, const LensMount& mount,
+Result<int> most_texture_rows(const Lens& lens, const LensMount& mount,
                               const BokehTextureSettings& settings) {
-    const auto made = TextureLens::make(opened, mount, settings);
+    const auto made = TextureLens::make(lens, mount, settings);
     if (!made) return made.error();
     return int(std::ceil(made->lens->reach_px(made->finer * settings.largest_coc_px))) + kBorderPx + 1;
 }
 
-Result<BokehTexture> bokeh_texture(const Lens& opened, const LensMount& mount,
+Result<BokehTexture> bokeh_texture(const Lens& lens, const LensMount& mount,
                                    const BokehTextureSettings& settings) {
-    const auto made = TextureLens::make(opened, mount, settings);
+    const auto made = TextureLens::make(lens, mount, settings);
     if (!made) return made.error();
     BokehTexture texture;
     texture.lens = made->lens->description();
@@ -247,18 +247,18 @@ Result<BokehTexture> bokeh_texture(const Lens& opened, const LensMount& mount,
     return texture;
 }
 
-Result<LensDisc> lens_point_spread(const LensChoice& choice, const LensMount& mount, double coc_radius_px,
+Result<LensDisc> lens_point_spread(const LensChoice& lens, const LensMount& mount, double coc_radius_px,
                                    double field_x, double field_y, int size_px, bool raw) {
-    const auto lens = Lens::open(choice);
-    if (!lens) return lens.error();
-    return lens_point_spread(*lens, mount, coc_radius_px, field_x, field_y, size_px, raw);
+    const auto opened = Lens::open(lens);
+    if (!opened) return opened.error();
+    return lens_point_spread(*opened, mount, coc_radius_px, field_x, field_y, size_px, raw);
 }
 
-Result<BokehTexture> bokeh_texture(const LensChoice& choice, const LensMount& mount,
+Result<BokehTexture> bokeh_texture(const LensChoice& lens, const LensMount& mount,
                                    const BokehTextureSettings& settings) {
-    const auto lens = Lens::open(choice);
-    if (!lens) return lens.error();
-    return bokeh_texture(*lens, mount, settings);
+    const auto opened = Lens::open(lens);
+    if (!opened) return opened.error();
+    return bokeh_texture(*opened, mount, settings);
 }
 
 Result<BokehVolume> bokeh_volume(const Lens& lens, const LensMount& mount,

@@ -171,28 +171,28 @@ LensSection thin_section(std::vector<SectionRay> rays, const LensMount& mount, d
 
 }  // namespace
 
-Result<LensSection> lens_section(const Lens& opened, const LensMount& mount, double depth_m, double field_x,
+Result<LensSection> lens_section(const Lens& lens, const LensMount& mount, double depth_m, double field_x,
                                  double field_y, int rays_across) {
     if (!(depth_m > 0)) return refuse("section.depth_m must be above 0");
     if (!(std::hypot(field_x, field_y) <= 1.001))
         return refuse("section.field must lie within the half diagonal");
     if (rays_across < 3 || rays_across > 101) return refuse("section.rays_across must be 3 to 101");
-    LensChoice choice = opened.choice();
+    LensChoice choice = lens.choice();
     if (choice.kernel_images.far || choice.kernel_images.near)
         return refuse("lens.kernel_image: a picture of a disc has no rays");
-    Lens lens = opened;
+    Lens used = lens;
     if (choice.wave) {
         choice.wave = false;
-        auto without = opened.with(choice);
+        auto without = lens.with(choice);
         if (!without) return without.error();
-        lens = std::move(*without);
+        used = std::move(*without);
     }
     Camera camera = mount.camera;
     if (camera.focus_distance_m == 0) camera.focus_distance_m = std::numeric_limits<double>::infinity();
     const auto coc = CircleOfConfusion::make(camera, mount.width_px);
     if (!coc) return coc.error();
     const auto model =
-        kernel::model_on(lens, {mount.camera, mount.width_px, mount.height_px, mount.pixel_aspect});
+        kernel::model_on(used, {mount.camera, mount.width_px, mount.height_px, mount.pixel_aspect});
     if (!model) return model.error();
     const auto* of_rays = dynamic_cast<const kernel::GeometricLens*>(model->get());
     if (!of_rays) return refuse("lens.name: this lens has no rays");
@@ -204,7 +204,7 @@ Result<LensSection> lens_section(const Lens& opened, const LensMount& mount, dou
     const double slope = axis.size * corner_mm / mount.camera.focal_length_mm;
     const double lead_mm = 0.5 * mount.camera.focal_length_mm;
     auto rays = landed_rays(*of_rays, coc->radius_px(depth_m), field, rays_across);
-    const optics::Prescription* prescription = kernel::prescription_of(lens);
+    const optics::Prescription* prescription = kernel::prescription_of(used);
     if (!prescription) return thin_section(std::move(rays), mount, slope, 1000 * depth_m, lead_mm, axis);
     const auto tracer = Tracer::make(*prescription, mount.camera);
     if (!tracer) return tracer.error();
