@@ -251,10 +251,7 @@ void add_inspect(Verb& program, Action& chosen) {
     flags->input.add_depth_to(verb);
     flags->input.add_transfer_to(verb);
     flags->camera.add_to(verb, "file");
-    FlagGroup(verb, "Focus")
-        .value("--permissible-radius", "PX",
-               "blur radius that still counts as sharp, for near and far limits and --view focus (default 1)",
-               parse_positive, flags->permissible_radius_px);
+    add_permissible_radius_to(verb, flags->permissible_radius_px);
     flags->frames.add_to(verb);
     flags->run.add_json_to(verb);
     flags->run.add_log_to(verb, false);

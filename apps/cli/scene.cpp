@@ -163,14 +163,6 @@ void MakeFlags::check(const Verb& verb) {
             throw UsageError(file + ": the name of many frames holds #### or %04d");
 }
 
-Camera complete(const FoundCamera& found, ImageScale image_scale) {
-    return {.focal_length_mm = found.focal_length_mm->value,
-            .sensor_width_mm = found.sensor_width_mm->value,
-            .f_number = found.f_number->value,
-            .focus_distance_m = found.focus_distance_m->value,
-            .image_scale = image_scale};
-}
-
 Frame frame_of(const Place& place, Picture colour) {
     Frame frame;
     frame.place = place;
@@ -254,7 +246,7 @@ Status make_scene(const MakeFlags& all) {
         merged_camera(camera_of_scene(own, "scene " + flags.name), flags.camera.choice());
     const ImageScale image_scale = flags.camera.image_scale.value_or(own.image_scale);
     SceneSettings settings = flags.scene;
-    settings.camera = complete(camera, image_scale);
+    settings.camera = known_camera(camera, image_scale);
     note(camera_line(camera, image_scale));
     auto scene = [&] {
         ProgressLine progress(flags.run.progress, flags.run.quiet, "scene");

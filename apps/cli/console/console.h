@@ -33,6 +33,8 @@ std::string one_line(const std::string& text);
 // Writes to standard output. Returns false if it could not be written (full disk, closed pipe).
 bool print(const std::string& text);
 
+// All words with `between` between them.
+std::string joined(const std::vector<std::string>& words, const std::string& between = ", ");
 // "a", "a and b", "a, b and c".
 std::string listed(const std::vector<std::string>& words);
 

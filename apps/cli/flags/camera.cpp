@@ -82,10 +82,14 @@ void FocusFlags::add_to(Verb& verb) {
                parse_pixel, focus_at)
         .value("--focus-point", "X,Y,Z",
                "focus on this world point, in scene units; needs the file's worldToCamera", parse_place,
-               focus_point)
-        .value("--permissible-radius", "PX",
-               "blur radius that still counts as sharp, for near and far limits and --view focus (default 1)",
-               parse_positive, permissible_radius_px);
+               focus_point);
+    add_permissible_radius_to(verb, permissible_radius_px);
+}
+
+void FocusFlags::check(const CameraFlags& camera) const {
+    refuse_both(camera.focus_distance_m.has_value(), "--focus", focus_at.has_value(), "--focus-at");
+    refuse_both(camera.focus_distance_m.has_value(), "--focus", focus_point.has_value(), "--focus-point");
+    refuse_both(focus_at.has_value(), "--focus-at", focus_point.has_value(), "--focus-point");
 }
 
 std::vector<std::string> FocusFlags::given() const {

@@ -43,7 +43,18 @@ struct FocusFlags {
 
     void add_to(Verb& verb);
     std::vector<std::string> given() const;
+    // Throws UsageError if two of these and --focus choose the focus.
+    void check(const CameraFlags& camera) const;
 };
+
+// Adds --permissible-radius.
+template <typename Target>
+void add_permissible_radius_to(Verb& verb, Target& radius_px) {
+    FlagGroup(verb, "Focus")
+        .value("--permissible-radius", "PX",
+               "blur radius that still counts as sharp, for near and far limits and --view focus (default 1)",
+               parse_positive, radius_px);
+}
 
 // Text to append to a message about missing camera numbers: ", for example: petzval defocus … --fstop 2.8".
 std::string camera_example(const FoundCamera& found, const std::string& input, const std::string& output);

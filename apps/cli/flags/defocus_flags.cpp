@@ -133,10 +133,7 @@ void DefocusFlags::check_choices() {
     input.check();
     camera.check();
     look.settle();
-    refuse_both(camera.focus_distance_m.has_value(), "--focus", focus.focus_at.has_value(), "--focus-at");
-    refuse_both(camera.focus_distance_m.has_value(), "--focus", focus.focus_point.has_value(),
-                "--focus-point");
-    refuse_both(focus.focus_at.has_value(), "--focus-at", focus.focus_point.has_value(), "--focus-point");
+    focus.check(camera);
     if (input.depth_is_coc()) check_coc_input();
     if (look.look().expand_highlights && !input.behind.empty())
         throw UsageError(

@@ -52,9 +52,7 @@ Result<std::string> parse_look(const std::string& text) {
 std::string preset_names() {
     std::vector<std::string> names;
     for (const LookPreset& preset : look_presets()) names.push_back(preset.name);
-    std::string all;
-    for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
-    return all;
+    return joined(names);
 }
 
 UsageError refused(const Error& error) { return UsageError(spoken(error), error.code, error.field); }

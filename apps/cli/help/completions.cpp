@@ -1,6 +1,7 @@
 // Completions of the command line, for three shells.
 #include "petzval/lens_facts.h"
 
+#include "console/console.h"
 #include "help/help_forms.h"
 
 #include <algorithm>
@@ -8,11 +9,7 @@
 namespace petzval::cli {
 namespace {
 
-std::string joined(const std::vector<std::string>& words, const std::string& between = " ") {
-    std::string text;
-    for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
-    return text;
-}
+std::string in_a_row(const std::vector<std::string>& words) { return joined(words, " "); }
 
 // The words that may follow a flag, as far as they are known.
 std::vector<std::string> values_of(const FlagHelp& flag) {
@@ -58,13 +55,13 @@ std::string zsh_argument(const FlagHelp& flag) {
     const std::string after = flag.placeholder.empty()
                                   ? ""
                                   : ":" + std::string(values.empty() ? flag.placeholder : "value") + ":" +
-                                        (!values.empty()  ? "(" + joined(values) + ")"
+                                        (!values.empty()  ? "(" + in_a_row(values) + ")"
                                          : flag.is_file() ? "_files"
                                                           : " ");
     const std::string help = quoted("[" + flag.help, ":").substr(1);
     const std::string what = help.substr(0, help.size() - 1) + "]" + quoted(after).substr(1);
     if (flag.names.size() == 1) return "'" + flag.names.front() + what;
-    return "'(" + joined(flag.names) + ")'{" + joined(flag.names, ",") + "}'" + what;
+    return "'(" + in_a_row(flag.names) + ")'{" + joined(flag.names, ",") + "}'" + what;
 }
 
 std::string fish_condition(const VerbHelp& verb) {
@@ -77,7 +74,7 @@ std::string fish_condition(const VerbHelp& verb) {
     }
     if (!verb.verbs.empty())
         condition += (condition.empty() ? "" : "; and ") + std::string("not __fish_seen_subcommand_from ") +
-                     joined(names_of(verb.verbs));
+                     in_a_row(names_of(verb.verbs));
     return condition;
 }
 
@@ -86,7 +83,7 @@ std::string fish_flag(const FlagHelp& flag) {
     for (const std::string& name : flag.names)
         text += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
     const std::vector<std::string> values = values_of(flag);
-    if (!values.empty()) text += " -x -a " + quoted(joined(values));
+    if (!values.empty()) text += " -x -a " + quoted(in_a_row(values));
     if (values.empty() && !flag.placeholder.empty()) text += flag.is_file() ? " -r" : " -x";
     return text + " -d " + quoted(flag.help, "\\");
 }
@@ -104,9 +101,9 @@ std::string as_bash(const VerbHelp& program) {
             for (const std::string& name : flag.names)
                 if (const auto after = values_of(flag); !after.empty())
                     values += "        " + quoted(verb.name + " " + name) +
-                              ") words=" + quoted(joined(after)) + " ;;\n";
+                              ") words=" + quoted(in_a_row(after)) + " ;;\n";
         }
-        words += "            " + quoted(verb.name) + ") words=" + quoted(joined(offered)) + " ;;\n";
+        words += "            " + quoted(verb.name) + ") words=" + quoted(in_a_row(offered)) + " ;;\n";
     });
     return "# petzval in bash; made by: petzval help --format bash\n"
            "_petzval() {\n"
@@ -140,7 +137,7 @@ std::string as_zsh(const VerbHelp& program) {
         out += "    _arguments" + std::string(verb.verbs.empty() ? "" : " -C");
         for (const FlagHelp& flag : verb.flags) out += " \\\n        " + zsh_argument(flag);
         if (!verb.verbs.empty())
-            out += " \\\n        " + quoted("1:verb:(" + joined(names_of(verb.verbs)) + ")") +
+            out += " \\\n        " + quoted("1:verb:(" + in_a_row(names_of(verb.verbs)) + ")") +
                    " \\\n        '*::arg:->verb'";
         out += "\n";
         if (!verb.verbs.empty()) out += "    case $line[1] in\n";

@@ -40,10 +40,7 @@ void LensesOnPictureFlags::check(const Verb& verb, InputFlags& input) {
     look.settle();
     if (input.depth_is_coc())
         throw UsageError("--depth-kind coc-px cannot be used with --lenses, which set the radii");
-    refuse_both(camera.focus_distance_m.has_value(), "--focus", focus.focus_at.has_value(), "--focus-at");
-    refuse_both(camera.focus_distance_m.has_value(), "--focus", focus.focus_point.has_value(),
-                "--focus-point");
-    refuse_both(focus.focus_at.has_value(), "--focus-at", focus.focus_point.has_value(), "--focus-point");
+    focus.check(camera);
 }
 
 Result<Picture> LensesOnPictureFlags::make(const InputFlags& input, LensViewSheet sheet,

@@ -25,6 +25,7 @@ struct PictureFlags : MountFlags {
     DevelopFlags develop;
     RunFlags run;
 
+    bool is_png() const { return *kind_of_output(output) == FileKind::Png; }
     // A table is of the middle of the picture, wherever its upper edge lies; and it takes its time.
     void add_output_to(Verb& verb, bool is_table, bool has_raw = true) {
         FlagGroup(verb, "Output")
@@ -102,13 +103,11 @@ Status make_psf(PsfFlags& flags) {
     report["size"] = disc->weights.width();
     report["lost_share"] = disc->lost_share;
     report["raw"] = flags.raw;
-    if (*kind_of_output(flags.output) == FileKind::Png) {
-        if (Status done = write_view(flags, std::move(disc->weights)); !done) return done;
-    } else if (Status done = write_lens_disc(flags.output, *disc, flags.coc_radius_px, flags.field.low,
-                                             flags.field.high, !flags.overwrite.no_clobber);
-               !done) {
-        return done;
-    }
+    const Status done = flags.is_png()
+                            ? write_view(flags, std::move(disc->weights))
+                            : write_lens_disc(flags.output, *disc, flags.coc_radius_px, flags.field.low,
+                                              flags.field.high, !flags.overwrite.no_clobber);
+    if (!done) return done;
     return finish(flags, std::move(report), mount, disc->lens, watch);
 }
 
@@ -138,13 +137,10 @@ Status make_table(TableFlags& flags) {
     report["rows"] = texture->energy.height();
     report["rows_per_px"] = flags.table.rows_per_px;
     report["coc_radius_px"] = texture->coc_radius_px;
-    if (*kind_of_output(flags.output) == FileKind::Png) {
-        if (Status done = write_view(flags, std::move(texture->view)); !done) return done;
-    } else if (Status done = write_bokeh_texture(flags.output, *texture, flags.table, mount,
-                                                 !flags.overwrite.no_clobber);
-               !done) {
-        return done;
-    }
+    const Status done = flags.is_png() ? write_view(flags, std::move(texture->view))
+                                       : write_bokeh_texture(flags.output, *texture, flags.table, mount,
+                                                             !flags.overwrite.no_clobber);
+    if (!done) return done;
     return finish(flags, std::move(report), mount, texture->lens, watch);
 }
 
@@ -167,12 +163,10 @@ Status make_volume(VolumeFlags& flags) {
     Json report = new_report("lens volume");
     report["coc_radius_px"] = volume->coc_radius_px;
     report["size"] = volume->slices[0].width();
-    if (*kind_of_output(flags.output) == FileKind::Png) {
-        if (Status done = write_view(flags, stacked_slices(*volume)); !done) return done;
-    } else if (Status done = write_bokeh_volume(flags.output, *volume, mount, !flags.overwrite.no_clobber);
-               !done) {
-        return done;
-    }
+    const Status done = flags.is_png()
+                            ? write_view(flags, stacked_slices(*volume))
+                            : write_bokeh_volume(flags.output, *volume, mount, !flags.overwrite.no_clobber);
+    if (!done) return done;
     return finish(flags, std::move(report), mount, volume->lens, watch);
 }
 

@@ -73,12 +73,6 @@ void sort(std::vector<LensSummary>& lenses, LensOrder order) {
     });
 }
 
-std::string joined(const std::vector<std::string>& words) {
-    std::string all;
-    for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
-    return all;
-}
-
 Status list_lenses(const ListFlags& flags) {
     std::string text;
     std::vector<LensSummary> lenses = matching(lens_list(), flags.words);
