@@ -1,5 +1,7 @@
 #include "input.h"
 
+#include "petzval/shot_run.h"
+
 #include "console/console.h"
 #include "console/interrupt.h"
 #include "flags/fields.h"
@@ -72,6 +74,14 @@ void InputFlags::add_layers_to(Verb& verb) {
                parse_words, read.layers);
 }
 
+std::size_t process_memory_bytes(int threads) {
+    static const MemoryLimit limit = memory_limit(threads);
+    if (limit.bytes > 0)
+        say_in_place_of("--max-memory", limit.name,
+                        [](const std::string& message) { return limit.enough(message); });
+    return limit.bytes;
+}
+
 void InputFlags::check() const {
     for (const std::string& file : files_of(*this)) run_files().reads(file);
     if (const Status fine = petzval::check(source()); !fine) throw UsageError(in_flags(fine.error().message));
@@ -79,6 +89,7 @@ void InputFlags::check() const {
 
 ShotSource InputFlags::source(const CameraFlags& user) const {
     auto source = static_cast<const ShotSource&>(*this);
+    if (read.max_memory_bytes == 0) source.read.max_memory_bytes = process_memory_bytes(read.threads);
     source.read.transfer = transfer.value_or(Transfer::Srgb);
     source.depth.kind = depth_kind.value_or(DepthKind::Planar);
     source.depth_kind_given = depth_kind.has_value();

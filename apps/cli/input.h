@@ -31,9 +31,13 @@ struct InputFlags : ShotSource {
     // Throws UsageError for depth flags that contradict each other.
     void check() const;
     bool depth_is_coc() const { return depth_kind == DepthKind::CocPx; }
-    // The source of the shot, with the user's camera.
+    // The source of the shot, with the user's camera and at most the memory of the process.
     ShotSource source(const CameraFlags& user = {}) const;
 };
+
+// Memory that the system lets this process take (memory_limit()); 0: no limit. Messages then name that limit
+// and not --max-memory.
+std::size_t process_memory_bytes(int threads);
 
 // read_shot() that an interrupt ends.
 Result<Shot> load_shot(const ShotSource& source);

@@ -123,7 +123,7 @@ class LightEngines(CommandLineTest):
 
     def test_too_little_memory_is_said(self):
         for engine in ("gather", "gaussian", "sprites"):
-            self.refuse(1, "defocus", "in.exr", "-o", "no.exr", *CAMERA, "--engine", engine, "--max-memory", "20M",
+            self.refuse(1, "defocus", "in.exr", "-o", "no.exr", *CAMERA, "--engine", engine, "--max-memory", "15M",
                         says=["--max-memory", engine])
 
     def test_given_points_are_drawn_where_they_are(self):

@@ -75,6 +75,16 @@ class ShortMemory(CommandLineTest):
         finally:
             os.rmdir(group)
 
+    def test_each_verb_that_reads_keeps_to_a_limit_of_the_system(self):
+        if self.least() > 500:
+            self.skipTest("this build takes memory of its own")
+        self.succeed("scene", "make", "table", "--width", "1280", "--height", "720", "--pinhole-samples", "1", "-o", "in.exr")
+        for command in (["defocus", "in.exr", "-o", "out.exr"], ["develop", "in.exr", "-o", "out.png"],
+                        ["compare", "in.exr", "in.exr"], ["sheet", "in.exr", "-o", "out.png", "--lenses", "doublet"],
+                        ["inspect", "in.exr"]):
+            refused = self.refuse(1, *command, limits=limited_to(self.least() + 16), says=["what ulimit -v leaves", "in.exr takes"])
+            self.assertEqual(len(refused.lines), 1)
+
     def peak(self, *args):
         """Exit code and the largest memory of one run, MiB."""
         with subprocess.Popen([PETZVAL, *args], cwd=self.folder, stdin=subprocess.DEVNULL) as run:

@@ -110,7 +110,7 @@ TEST_P(Endurance, TooLittleMemoryIsRefusedByNameAndEnoughChangesNoBit) {
     DefocusJob limited = job(shot);
     limited.pupil_points = 16;
     const Picture usual = drawn(limited);
-    limited.max_memory_bytes = std::size_t(traces() ? 3 : 30) << 20;
+    limited.max_memory_bytes = std::size_t(traces() ? 3 : 15) << 20;
     const auto refused = drawer().made(limited);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ErrorCode::OutOfMemory);

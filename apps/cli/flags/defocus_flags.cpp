@@ -2,8 +2,6 @@
 
 #include "petzval/session.h"
 
-#include "flags/fields.h"
-
 #include <algorithm>
 #include <cstdlib>
 #include <utility>
@@ -122,13 +120,6 @@ void DefocusFlags::check_coc_input() const {
 void DefocusFlags::check_choices() {
     run.apply();
     input.read.threads = run.threads;
-    if (max_memory_bytes == 0) {
-        const MemoryLimit limit = memory_limit(run.threads);
-        process_memory_bytes = limit.bytes;
-        if (limit.bytes > 0)
-            say_in_place_of("--max-memory", limit.name,
-                            [limit](const std::string& message) { return limit.enough(message); });
-    }
     input.read.max_memory_bytes = memory_bytes();
     input.check();
     camera.check();

@@ -32,9 +32,8 @@ struct DefocusFlags {
     LookFlags look;
     std::string points;  // lights
     std::size_t max_memory_bytes = 0;
-    std::size_t process_memory_bytes = 0;  // that the system lets this process take; 0: all there is
     std::size_t memory_bytes() const {
-        return max_memory_bytes > 0 ? max_memory_bytes : process_memory_bytes;
+        return max_memory_bytes > 0 ? max_memory_bytes : process_memory_bytes(run.threads);
     }
     std::optional<std::string> kernel_cache;  // a folder, or "off"
     std::string device = "cpu";               // SessionSettings::device

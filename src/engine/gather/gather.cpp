@@ -8,6 +8,7 @@
 #include "engine/gather/realtime_plan.h"
 #include "engine/lights/bright_points.h"
 #include "engine/lights/sprites.h"
+#include "engine/samples/connectivity.h"
 #include "engine/waist/memory.h"
 #include "engine/waist/stopwatch.h"
 
@@ -29,9 +30,19 @@ struct Strips {
     std::size_t least_bytes = 0;  // of job.max_memory_bytes
 };
 
+// Bytes of cells, light, blocks and hidden surfaces, for each pixel of a strip. Measured on whole commands
+// for flat pictures (docs/results/memory.md); others are less certain.
+double working_bytes_per_pixel(const EngineView& input) {
+    constexpr double kPerPixel = 17, kPerSilhouettePixel = 90, kMost = 106;
+    const bool flat = input.samples.deep.empty() && input.samples.plate.empty() &&
+                      input.samples.layers.empty() && input.samples.holdout.empty();
+    if (!flat || input.services.max_memory_bytes == 0) return kMost;
+    return kPerPixel +
+           kPerSilhouettePixel * share_at_silhouettes(input.samples.coc_px, *input.services.workers);
+}
+
 Strips plan_strips(const EngineView& input, const RingSizes& sizes, const BrightPoints& found) {
-    constexpr std::size_t kBytesPerPixel =
-        106;  // of cells, light, blocks and what is hidden, where many depths meet
+    constexpr std::size_t kKernelBytes = std::size_t(12) << 20;
     const int cell = 1 << (sizes.levels() - 1);
     const int unit = std::max({GatherPlan::kTile, cell, fill_block_px(input.samples.nearest_coc_px)});
     const auto whole_units = [unit](double rows) {
@@ -41,9 +52,9 @@ Strips plan_strips(const EngineView& input, const RingSizes& sizes, const Bright
     Strips strips{whole_units(input.height()),
                   whole_units(1.05 * input.lens.level(0).reach_px(largest) +
                               double(fill_reach_px(input.samples.nearest_coc_px)) + 4.0 * cell + 8)};
-    const std::size_t row_bytes =
-        kBytesPerPixel * std::size_t(input.width()) + found.bytes_beside(1) - found.bytes_beside(0);
-    const std::size_t held = held_bytes(input) + found.bytes_beside(0) +
+    const std::size_t row_bytes = std::size_t(working_bytes_per_pixel(input) * double(input.width())) +
+                                  found.bytes_beside(1) - found.bytes_beside(0);
+    const std::size_t held = held_bytes(input) + kKernelBytes + found.bytes_beside(0) +
                              sizeof(Rgba) * std::size_t(input.width()) * std::size_t(input.height());
     strips.least_bytes =
         held + std::max(std::size_t(std::min(unit + 2 * strips.halo, input.height())) * row_bytes,

@@ -8,7 +8,7 @@ namespace {
 
 constexpr Rgba kNear{0.024f, 0.275f, 0.745f, 1}, kFar{0.896f, 0.332f, 0.006f, 1}, kRim{0.5f, 0.5f, 0.5f, 1};
 constexpr float kDimmed = 0.25f, kIdle = 0.35f;
-constexpr int kDown = 2;  // discs one above the other
+constexpr int kRows = 2;  // discs one above the other
 
 // Fraction of a pixel inside an edge at this distance; the distance is negative inside.
 float inside(float distance) { return std::clamp(0.5f - distance, 0.0f, 1.0f); }
@@ -72,10 +72,10 @@ Picture drawn(TapsFigure figure, Workers& workers) {
         Rgba& c = figure.picture.pixels()[i];
         c = {kDimmed * c.r, kDimmed * c.g, kDimmed * c.b, 1};
     }
-    const int cell = std::max(1, height / kDown), across = std::max(1, width / cell);
-    for (int j = 0; j < kDown; ++j)
+    const int cell = std::max(1, height / kRows), across = std::max(1, width / cell);
+    for (int j = 0; j < kRows; ++j)
         for (int i = 0; i < across; ++i) {
-            const Disc disc{(2 * i + 1) * width / (2 * across), (2 * j + 1) * height / (2 * kDown),
+            const Disc disc{(2 * i + 1) * width / (2 * across), (2 * j + 1) * height / (2 * kRows),
                             0.42f * float(std::min(cell, width / across))};
             if (disc.radius >= 2) draw_disc(figure, disc, workers);
         }

@@ -2,6 +2,10 @@
 
 #include "base/parallel.h"
 
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+
 namespace petzval::engine {
 
 Image<unsigned char> connections(View<const float> coc, Workers& workers) {
@@ -28,6 +32,16 @@ Image<unsigned char> connections(View<const float> coc, Workers& workers) {
         }
     });
     return connected;
+}
+
+double share_at_silhouettes(View<const float> coc_px, Workers& workers) {
+    const Image<unsigned char> connected = connections(coc_px, workers);
+    std::atomic<std::ptrdiff_t> cut = 0;
+    parallel_for(coc_px.height(), workers, [&](int y) {
+        const unsigned char* const row = connected.row(y);
+        cut += std::count_if(row, row + coc_px.width(), [](unsigned char c) { return c != kAll; });
+    });
+    return double(cut) / (double(coc_px.width()) * double(coc_px.height()));
 }
 
 Slope slope_at(View<const float> coc, View<const unsigned char> connected, int x, int y) {

@@ -31,6 +31,10 @@ enum Connected : unsigned char { kLeft = 1, kRight = 2, kUp = 4, kDown = 8, kAll
 // Connections of every pixel of a plane of signed radii.
 Image<unsigned char> connections(View<const float> coc_px, Workers& workers);
 
+// Fraction of pixels at silhouettes: they are not connected to all neighbours, and the surfaces that they
+// hide need more memory.
+double share_at_silhouettes(View<const float> coc_px, Workers& workers);
+
 // Change of the radius per pixel along x and y within the surface of each pixel: the mean of the steps to its
 // connected neighbours.
 struct Slope {

@@ -15,7 +15,6 @@
 #include "engine/waist/stopwatch.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -57,18 +56,6 @@ constexpr std::size_t kFixedWorkingBytes = std::size_t(56) << 20;
 // Strips of wide frames that are narrower are mostly halo.
 constexpr std::size_t kDefaultWorkingBytes = std::size_t(2000) << 20;
 
-// Fraction of pixels at silhouettes: they are separated from a neighbour, and the surfaces they hide need
-// more samples and sources.
-double share_at_silhouettes(const EngineView& input) {
-    const Image<unsigned char> connected = connections(input.samples.coc_px, *input.services.workers);
-    std::atomic<std::ptrdiff_t> cut = 0;
-    parallel_for(input.height(), *input.services.workers, [&](int y) {
-        const unsigned char* const row = connected.row(y);
-        cut += std::count_if(row, row + input.width(), [](unsigned char c) { return c != kAll; });
-    });
-    return double(cut) / (double(input.width()) * double(input.height()));
-}
-
 // Peak memory of a flat picture in one strip, as measured on whole commands
 // (docs/journal/2026-11-23-memory-and-file-writing.md, Fewer bytes). The estimate for several strips, and for
 // deep pictures, is less certain and larger.
@@ -78,7 +65,8 @@ std::size_t bytes_at_once(const EngineView& input, bool has_spare) {
                       input.samples.layers.empty() && input.samples.holdout.empty();
     if (!flat) return std::numeric_limits<std::size_t>::max();
     const double per_pixel =
-        kPerPixel + (has_spare ? 0 : sizeof(Rgba)) + kPerSilhouettePixel * share_at_silhouettes(input);
+        kPerPixel + (has_spare ? 0 : sizeof(Rgba)) +
+        kPerSilhouettePixel * share_at_silhouettes(input.samples.coc_px, *input.services.workers);
     const double fixed = kFixed + (input.lens.level(0).reach_px(0) > 0.5 ? kAberrated : 0);
     return std::size_t(per_pixel * double(input.width()) * double(input.height()) + fixed) +
            input.services.beside_bytes;

@@ -7,7 +7,7 @@
 
 namespace petzval::engine {
 
-constexpr std::size_t kFixedBytes = std::size_t(32) << 20;  // code, tables, kernels
+constexpr std::size_t kFixedBytes = std::size_t(19) << 20;  // code, tables, kernels
 
 // Bytes besides the engine's own: the caller's colour and depth, the radii; what is fixed.
 inline std::size_t held_bytes(const EngineView& input) {
