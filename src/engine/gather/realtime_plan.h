@@ -42,7 +42,8 @@ struct LampKernels {
 // LampKernels.
 struct RealtimeLens {
     static constexpr int kMostTaps = 127, kSets = 4, kShares = 64;
-    static constexpr std::size_t kWeights = std::size_t(1) + kSets * kMostTaps;  // where they begin
+    static constexpr std::size_t kWeights =
+        std::size_t(1) + std::size_t(kSets) * kMostTaps;  // where they begin
     static constexpr std::size_t kFours = kWeights + 2 * std::size_t(kSets) * kMostTaps * kShares +
                                           2 * (LampKernels::kSteps + LampKernels::weights());
     static constexpr std::size_t kBytes = kFours * sizeof(Rgba);

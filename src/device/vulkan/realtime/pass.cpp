@@ -39,7 +39,8 @@ std::uint64_t word_of(Handle handle) {
 
 }  // namespace
 
-RealtimePrograms::RealtimePrograms(const Opened& opened, const RealtimeSettings& settings) : opened_(opened) {
+RealtimePrograms::RealtimePrograms(Opened opened, const RealtimeSettings& settings)
+    : opened_(std::move(opened)) {
     const VkPipelineCreateFlags flags = settings.is_cut ? VK_PIPELINE_CREATE_DISPATCH_BASE_BIT : 0;
     try {
         for (std::size_t step = 0; step < programs_.size(); ++step) {

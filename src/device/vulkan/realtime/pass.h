@@ -40,7 +40,7 @@ struct RealtimeImages {
 class RealtimePrograms {
 public:
     // opened.vk outlives this.
-    RealtimePrograms(const Opened& opened, const RealtimeSettings& settings);
+    RealtimePrograms(Opened opened, const RealtimeSettings& settings);
     ~RealtimePrograms();
     RealtimePrograms(const RealtimePrograms&) = delete;
     RealtimePrograms& operator=(const RealtimePrograms&) = delete;

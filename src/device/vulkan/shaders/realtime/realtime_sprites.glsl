@@ -19,7 +19,9 @@ shared Lamp group_lamps[64];
 Lamp lamp_of_cell(ivec2 cell) {
     const vec4 place = texelFetch(cells, ivec3(cell, kLampPlace), 0);
     const float radius = max(abs(place.z), kStepAt);
-    const int step_of = clamp(int(round(2 * log2(radius / kStepAt))), 0, kLampSteps - 1);
+    // The nearest kernel keeps the light of small discs; the next larger one keeps the rims of large ones sharp.
+    const float place_of = 2 * log2(radius / kStepAt);
+    const int step_of = clamp(int(radius < 8 ? round(place_of) : ceil(place_of - 0.1)), 0, kLampSteps - 1);
     const vec4 kept = lens[kFirstStep + step_of + (place.z < 0 ? 0 : kLampSteps)];
     const float cells_per_px = kept.z / radius;
     const vec2 from = vec2(2 * cell) + place.xy, gap = abs(vec2(8 * ivec2(gl_WorkGroupID.xy) + 4) - from) - 3.5;
