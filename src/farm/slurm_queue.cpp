@@ -33,7 +33,7 @@ Result<std::string> slurm_queue(const FarmShot& shot) {
     std::map<std::string, int> count;
     std::istringstream lines(*jobs);
     for (std::string id, state; lines >> id >> state;)
-        if (ids.count(id)) ++count[state];
+        if (ids.contains(id)) ++count[state];
     std::string text;
     for (const auto& [state, elements] : count)
         text += (text.empty() ? "" : ", ") + std::to_string(elements) + " " + state;
