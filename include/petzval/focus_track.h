@@ -52,6 +52,6 @@ struct FocusTracking {
 // pick have no key, with a warning in their record. Of `host`, only `say` and `cancelled` are called. Errors
 // of frames: those of read_shot() and distance_around_m(); of the files: InvalidFile if no frame shows
 // anything there; OutputFailed.
-PETZVAL_API FrameWork work_of(FocusTracking tracking, FrameLoopHost host = {});
+PETZVAL_API FrameWork work_of(FocusTracking settings, FrameLoopHost host = {});
 
 }  // namespace petzval

@@ -33,7 +33,7 @@ struct DevelopShot {
 // One picture: paths hold no frame number. `lens` is that of the look. The record is that of `petzval develop
 // --json`. Of `host`, only `say`, `cancelled` and `to_display` are called. Errors: those of read_shot(), of
 // Session::add_light() and of to_display; OutputFailed.
-PETZVAL_API Result<FrameRecord> develop_picture(const DevelopShot& shot, const Lens& lens,
+PETZVAL_API Result<FrameRecord> develop_picture(const DevelopShot& settings, const Lens& lens,
                                                 const ShotRunHost& host = {});
 
 }  // namespace petzval

@@ -33,6 +33,6 @@ PETZVAL_API bool is_video(const std::string& path);
 // shape, centred on black. The file is written once all frames are done. Of `host`, only `say` and
 // `cancelled` are called. Errors of frames: those of read_shot(); of the file: OutputFailed, also if a video
 // is requested and ffmpeg is not installed; InvalidFile if no frame could be read.
-PETZVAL_API FrameWork work_of(ShotSheet sheet, FrameLoopHost host = {});
+PETZVAL_API FrameWork work_of(ShotSheet settings, FrameLoopHost host = {});
 
 }  // namespace petzval
