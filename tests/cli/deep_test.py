@@ -136,7 +136,7 @@ class Deep(CommandLineTest):
 
     def test_overscan_of_a_full_frame_is_nothing(self):
         outcome = self.defocus("far.exr", "-o", "out.exr", "--overscan", "auto")
-        self.assertIn("nothing to grow", outcome.err)
+        self.assertIn("overscan has no effect", outcome.err)
         self.assertEqual(len(self.rows("out.exr")[0]), 40)
 
     @unittest.skipUnless(os.path.isdir(REAL), "the OpenEXR project's pictures are not at hand")
