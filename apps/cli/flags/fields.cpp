@@ -71,6 +71,7 @@ const Rows& other_flags() {
         {"camera.sensor_width_mm", "--sensor-width"},
         {"compare.exposure", "--exposure"},
         {"develop.contrast", "--contrast"},
+        {"develop.dither", "--no-dither"},
         {"develop.exposure_stops", "--exposure"},
         {"develop.tone", "--tone"},
         {"disc.coc_radius_px", "--defocus"},
