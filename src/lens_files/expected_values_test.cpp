@@ -75,7 +75,7 @@ TEST(ExpectedValues, AnFNumberThatClearAperturesCannotPassIsNoticed) {
     EXPECT_EQ(problem("10.2"), "");
     EXPECT_EQ(problem("9.9"), "");  // rounding
     EXPECT_NE(problem("5").find("pass no more than f/9"), std::string::npos) << problem("5");
-    EXPECT_NE(problem("5").find("says f/5"), std::string::npos);
+    EXPECT_NE(problem("5").find("states f/5"), std::string::npos);
 }
 
 TEST(ExpectedValues, AnUnknownQuantityIsNamed) {
