@@ -170,11 +170,11 @@ Result<ExrFile> ExrFile::open(std::shared_ptr<const InputFile> file, std::size_t
                               Workers& workers) {
     const std::string path = file->path();
     ExrFile exr;
-    if (const auto reason = refuse_exr(*file, max_pixels, exr.headers_end))
-        return invalid_file(path, *reason);
     exr.workers = &workers;
     exr.file = file;
     const Status opened = guarded(*file, [&]() -> Status {
+        if (const auto reason = refuse_exr(*file, max_pixels, exr.headers_end))
+            return invalid_file(path, *reason);
         exr.stream = std::make_unique<ExrInputStream>(file, workers);
         // A file whose table of chunks is unfinished is still being written or was cut off: no
         // reconstruction.
