@@ -38,10 +38,11 @@ SPEED = [("scatter", "final"), ("scatter", "standard"), ("scatter", "draft"), ("
 ON_SHEET = ["scatter", "gather", "sprites", "gaussian", "gaussian wgld"]
 
 
-def built_in(name, width, samples, fstop=None):
-    stem = CACHE / f"{name.replace(':', '_')}_{width}_{samples}_{fstop or 'own'}_{scene_state()}"
+def built_in(name, width, samples, fstop=None, extra=()):
+    kind = "_".join([fstop or "own", *extra])
+    stem = CACHE / f"{name.replace(':', '_')}_{width}_{samples}_{kind}_{scene_state()}"
     scene, _, seed = name.partition(":")
-    flags = (["--seed", seed] if seed else []) + (["--fstop", fstop] if fstop else [])
+    flags = (["--seed", seed] if seed else []) + (["--fstop", fstop] if fstop else []) + list(extra)
     sharp, truth = pathlib.Path(f"{stem}_sharp.exr"), pathlib.Path(f"{stem}_truth.exr")
     if not (sharp.exists() and truth.exists()):
         print(f"making {name}", file=sys.stderr)
@@ -146,6 +147,7 @@ def main():
     CACHE.mkdir(parents=True, exist_ok=True)
     if given.rows:
         print_table(["scene", *(label for label, _ in given.ways)], list(quality_rows(given)))
+        print(f"\nPSNR in dB. Built-in scenes {given.width} px wide, truth of {given.samples} lens samples.\n")
     elif "quality" in given.tables:
         head, columns, panels = ["engine"], [], []
         for scene in scenes_of(given):
