@@ -254,7 +254,7 @@ TEST(HostileFile, AnInputReplacedByAnotherPictureIsNoticedBeforeAnythingIsWritte
     write_bytes(folder / "a.exr", bytes_of(folder / "b.exr"));
     const Status written = write_exr(folder / "c.exr", *frame);
     ASSERT_FALSE(written);
-    EXPECT_EQ(written.error().code, ErrorCode::InvalidFile);
+    EXPECT_EQ(written.error().code, ErrorCode::ReadFailed) << "a shorter file: another try may succeed";
     EXPECT_EQ(folder.files(), 2u);
 }
 
