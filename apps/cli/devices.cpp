@@ -27,7 +27,7 @@ Status list_devices(const RunFlags& run) {
     Json report = new_report("devices");
     report["devices"] = list;
     report["no_gpu"] = missing.empty() ? Json(nullptr) : Json(missing);
-    return tell(text, std::move(report), run.json);
+    return tell(text, report, run.json);
 }
 
 }  // namespace

@@ -313,7 +313,7 @@ Status list_scenes(const RunFlags& run) {
     Json report = new_report("scene list");
     report["scenes"] = scenes;
     report["points"] = points;
-    return tell(text, std::move(report), run.json);
+    return tell(text, report, run.json);
 }
 
 void add_list(Verb& scene, Action& chosen) {

@@ -15,8 +15,8 @@ struct Rule {
 };
 std::span<const Rule> rules();
 
-// Findings go to this descriptor as lines; a check runs in a separate process.
-void report_to(int descriptor);
+// Findings go to the descriptor `to` as lines; a check runs in a separate process.
+void report_to(int to);
 void held(std::string_view rule);  // it was tried and, so far, held
 void broken(std::string_view rule, const std::string& why);
 void not_tried(std::string_view rule, const std::string& why);

@@ -49,7 +49,7 @@ Status check_lens(const std::string& input, const RunFlags& run) {
         report[key] = json_of(lens_facts_json(*facts))[key];
     report["seconds"]["compute"] = report["seconds"]["total"] = watch.seconds();
     report["peak_memory_bytes"] = peak_memory_bytes();
-    if (Status told = tell(check_text(*facts, input), std::move(report), run.json); !told) return told;
+    if (Status told = tell(check_text(*facts, input), report, run.json); !told) return told;
     if (!facts->doubts.empty())
         throw DoubtsFound{input + ": " + std::to_string(facts->doubts.size()) +
                           (facts->doubts.size() == 1 ? " doubt" : " doubts")};

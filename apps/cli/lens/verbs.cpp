@@ -91,7 +91,7 @@ Status list_lenses(const ListFlags& flags) {
     }
     Json report = new_report("lens list");
     report["lenses"] = json_of(lens_list_json(lenses));
-    return tell(text, std::move(report), flags.run.json);
+    return tell(text, report, flags.run.json);
 }
 
 Json facts_json(const LensFacts& facts, const std::string& input) {
@@ -194,7 +194,7 @@ Status show_lens(const std::string& name, const RunFlags& run) {
     Json report = facts_json(*facts, name);
     report["seconds"]["compute"] = report["seconds"]["total"] = watch.seconds();
     report["peak_memory_bytes"] = peak_memory_bytes();
-    return tell(facts_text(*facts), std::move(report), run.json);
+    return tell(facts_text(*facts), report, run.json);
 }
 
 void add_lens_list(Verb& lens, Action& chosen) {
