@@ -136,12 +136,12 @@ float alike(Rgba a, Rgba b) {
     return cosine2 * cosine2 * cosine2 * cosine2;
 }
 
-// True if the pixel at `lit_px` lies before unlit ones from `nearest_px` to `farthest_px` as no slope of
-// theirs explains. The pixel then shows a lamp's own body: light from behind an edge makes depths farther,
-// not nearer.
-bool stands_before(float lit_px, float nearest_px, float farthest_px) {
-    const float slope = farthest_px - nearest_px;
-    return laws::is_in_front(lit_px, nearest_px, std::max(laws::kHiddenSheet.step_px, slope));
+// True if the pixel at `lit_px` lies before unlit ones from first_px to last_px as no slope of theirs
+// explains. The pixel then shows a lamp's own body: light from behind an edge makes depths farther, not
+// nearer.
+bool stands_before(float lit_px, float first_px, float last_px) {
+    const float slope = last_px - first_px;
+    return laws::is_in_front(lit_px, first_px, std::max(laws::kHiddenSheet.step_px, slope));
 }
 
 // Certainty that a lamp which lights the nearer side belongs to the surface of its brightest pixel. A lamp
