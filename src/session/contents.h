@@ -96,7 +96,9 @@ struct Session::Contents {
 
     // Lenses that hold more than stars and other lenses leave them lose their kernels first, then go.
     void trim(std::size_t bytes) {
-        constexpr std::size_t kMostLenses = 8;  // each holds tables besides its kernels
+        // Tables of a lens besides its kernels: 3 to 7 MiB.
+        constexpr std::size_t kMostLenses = 8, kTables = std::size_t(6) << 20;
+        const std::size_t most = bytes > 0 ? std::clamp<std::size_t>(bytes / kTables, 1, kMostLenses) : 0;
         const std::lock_guard lock(mutex);
         stars.trim(bytes);
         std::size_t held = stars.bytes();
@@ -104,7 +106,7 @@ struct Session::Contents {
             lens->trim(bytes - std::min(bytes, held));
             held += lens->bytes();
         }
-        while (lenses.size() > (bytes > 0 ? kMostLenses : 0)) lenses.pop_back();
+        while (lenses.size() > most) lenses.pop_back();
     }
 
     SessionUsage usage() const {

@@ -55,8 +55,7 @@ Pupil::Pupil(const LensChoice& choice, const Mount& mount)
     for (const BarrelRim& rim : choice.barrel)
         rims_.push_back(
             {rim.radius_mm / pupil_radius_mm, rim.distance_mm * corner_tangent(mount) / pupil_radius_mm});
-    if (kernel::has_texture(choice.texture))
-        texture_ = std::make_shared<const PupilImage>(drawn_texture(choice.texture));
+    if (kernel::has_texture(choice.texture)) texture_ = shared_texture(choice.texture);
 }
 
 std::vector<Point> Pupil::outline(FieldPosition field, double tolerance) const {

@@ -156,6 +156,16 @@ TEST(Texture, DustScratchesAndRingsShowInLargeDiscsForEveryKindOfLens) {
     }
 }
 
+TEST(Texture, IsSharedByThoseWhoAskForTheSame) {
+    PupilTexture texture{.image = nullptr, .dust = 0.5, .scratches = 0, .onion_rings = 0, .seed = 7};
+    const auto first = shared_texture(texture), second = shared_texture(texture);
+    EXPECT_EQ(first, second);
+    texture.seed = 8;
+    EXPECT_NE(shared_texture(texture), first);
+    texture.seed = 7;
+    EXPECT_EQ(shared_texture(texture)->mean({0.1, 0.2}, 0.1, 0.1), first->mean({0.1, 0.2}, 0.1, 0.1));
+}
+
 TEST(Texture, IsTheSameForTheSameSeed) {
     PupilTexture texture{.image = nullptr, .dust = 0.5, .scratches = 0.5, .onion_rings = 0.5, .seed = 7};
     const Plane a = drawn_texture(texture), b = drawn_texture(texture);

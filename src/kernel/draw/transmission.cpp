@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <numbers>
 
 namespace petzval::kernel {
@@ -154,6 +155,22 @@ Plane drawn_texture(const PupilTexture& texture) {
         for (int x = 0; x < kSide; ++x)
             plane(x, y) *= float(std::min(1.0, image.mean_inside({place(x), place(y)}, half, half)));
     return plane;
+}
+
+std::shared_ptr<const PupilImage> shared_texture(const PupilTexture& texture) {
+    struct Drawn {
+        PupilTexture texture;
+        PupilImage image;
+    };
+    static std::mutex mutex;
+    static std::weak_ptr<const Drawn> latest;
+    const std::lock_guard lock(mutex);
+    auto drawn = latest.lock();
+    if (!drawn || !(drawn->texture == texture)) {
+        drawn = std::make_shared<const Drawn>(Drawn{texture, PupilImage(drawn_texture(texture))});
+        latest = drawn;
+    }
+    return {drawn, &drawn->image};
 }
 
 }  // namespace petzval::kernel

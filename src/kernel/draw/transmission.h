@@ -6,6 +6,7 @@
 
 #include "kernel/model/coverage.h"
 
+#include <memory>
 #include <vector>
 
 namespace petzval::kernel {
@@ -34,5 +35,9 @@ bool has_texture(const PupilTexture& texture);
 // Everything a texture asks for, multiplied: 0…1. Dust is dark soft specks, more of them small; scratches are
 // thin dark curves; onion rings are uneven concentric waves. The same for the same seed.
 Plane drawn_texture(const PupilTexture& texture);
+
+// The same with summed areas. A texture is 5 MB and slow to draw: the levels of a lens share the one drawn
+// last.
+std::shared_ptr<const PupilImage> shared_texture(const PupilTexture& texture);
 
 }  // namespace petzval::kernel
