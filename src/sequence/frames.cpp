@@ -14,8 +14,17 @@ namespace {
 constexpr std::size_t kMostFrames = 1'000'000;
 constexpr int kMostDigits = 12;
 
+// The beginning of a text for messages, which are one line: bytes that are no ASCII letters or signs become
+// '?'.
+std::string shown(std::string_view text, std::size_t most) {
+    std::string line(text.substr(0, most));
+    std::ranges::replace_if(
+        line, [](char c) { return c < ' ' || c > '~'; }, '?');
+    return line;
+}
+
 Error refused(std::string_view text, const std::string& why) {
-    return {ErrorCode::InvalidArgument, "frames \"" + std::string(text.substr(0, 60)) + "\": " + why};
+    return {ErrorCode::InvalidArgument, "frames \"" + shown(text, 60) + "\": " + why};
 }
 
 // A number with its sign that `text` begins with; takes it off. Frame numbers fit 31 bits.
@@ -58,15 +67,14 @@ Result<Range> parse_range(std::string_view text, std::string_view all) {
             return refused(all, "the step of a range is a number from 1 on; for example 1-100x2");
         range.step = *step;
     } else if (rest.starts_with(':')) {
-        const std::string range_text(text.substr(0, text.size() - rest.size()));
+        const std::string range_text = shown(text.substr(0, text.size() - rest.size()), 60);
         return refused(all,
                        "':' means every n-th frame to some programs and all frames in another order to "
                        "others; write " +
-                           range_text + "x" + std::string(rest.substr(1)) + " for every n-th, " + range_text +
+                           range_text + "x" + shown(rest.substr(1), 20) + " for every n-th, " + range_text +
                            " for all");
     }
-    if (!rest.empty())
-        return refused(all, "not understood from \"" + std::string(rest.substr(0, 20)) + "\" on");
+    if (!rest.empty()) return refused(all, "not understood from \"" + shown(rest, 20) + "\" on");
     return range;
 }
 

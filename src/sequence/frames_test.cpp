@@ -27,6 +27,8 @@ TEST(Frames, WhatIsNotUnderstoodIsRefusedWithItsReason) {
         ASSERT_FALSE(frames) << text;
         EXPECT_EQ(frames.error().code, ErrorCode::InvalidArgument);
     }
+    for (const char* text : {"1,\n", "1\n2", "1:\n", "1\n:2"})
+        EXPECT_EQ(parse_frames(text).error().message.find('\n'), std::string::npos) << text;
     const std::string colon = parse_frames("1-100:3").error().message;
     EXPECT_NE(colon.find("1-100x3"), std::string::npos) << colon;
     EXPECT_NE(colon.find("1-100 for all"), std::string::npos) << colon;
