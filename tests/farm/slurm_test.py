@@ -111,17 +111,26 @@ class Cluster(CommandLineTest):
         with open(os.path.join(self.slurm, name + ".pid")) as file:
             return int(file.read())
 
+    def die(self, node):
+        """A node and all its processes end at once: none is left to report another's end."""
+        jobs = list(self.processes(f"SLURMD_NODENAME={node}"))
+        parents = {int(pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[1]) for pid in jobs}
+        pids = [self.pid_of(node), *(parents - {1}), *jobs]  # a job's parent is its slurmstepd
+        for pid in pids:
+            os.kill(pid, signal.SIGSTOP)
+        self.kill(*pids)
+
     def end(self):
         self.kill(*self.processes())
         if os.path.exists(os.path.join(self.slurm, "munge.pid")):
             self.kill(self.pid_of("munge"))
 
-    def wait(self, what, condition, seconds=600):
+    def wait(self, what, condition, seconds=600, step=0.3):
         end = time.monotonic() + seconds
         while not condition():
             self.hurry()
             self.assertLess(time.monotonic(), end, f"waited too long: {what}\n{self.logs()}")
-            time.sleep(0.3)
+            time.sleep(step)
 
     def hurry(self):
         """Slurm waits about two minutes before it runs a requeued element; not here."""
@@ -132,13 +141,13 @@ class Cluster(CommandLineTest):
     def logs(self):
         return "".join(pathlib.Path(p).read_text() for p in sorted(glob.glob(self.path("job/log.*.txt"))))
 
-    def shot(self, output, frames):
+    def shot(self, output, frames, *look):
         os.makedirs(self.path("out"))
         for frame in range(1, frames + 1):
             write_exr(self.path("in.%04d.exr" % frame),
                       {"R": plane(64, 48, lambda x, y: (x * frame) % 5), "G": plane(64, 48, 1.0), "B": plane(64, 48, 0.5),
                        "A": plane(64, 48, 1.0), "Z": plane(64, 48, lambda x, y: 1 + y / 4)})
-        return ["in.####.exr", "-o", output, *CAMERA, "--engine", "reference", "--pupil-points", "16384"]
+        return ["in.####.exr", "-o", output, *CAMERA, *(look or ("--engine", "reference", "--pupil-points", "16384"))]
 
     def test_a_shot_outlives_a_node_a_disk_a_frame_and_the_controller(self):
         words = self.shot("out/f.####.exr", 6)
@@ -180,6 +189,28 @@ class Cluster(CommandLineTest):
         self.wait("frame 2 again", lambda: not self.call("squeue", "-h"))
         self.assertIn("complete  6\n", self.succeed("farm", "collect", "job", env=self.env).out)
         self.assertEqual(self.content("out/f.0002.exr"), self.content("ref.0002.exr"))
+
+    def test_a_hundred_frames_outlive_a_killed_node(self):
+        words = self.shot("out/f.####.exr", 100, "--engine", "reference", "--pupil-points", "1024")
+        self.succeed("defocus", *words[:2], "ref.####.exr", *words[3:])
+        self.succeed("farm", "write", "--for", "slurm", "--chunk", "5", "-o", "job", "--", *words)
+        for node in NODES:
+            self.call("slurmd", "-N", node)
+        self.wait("three nodes", lambda: self.call("sinfo", "-h", "-N", "-t", "idle").count("\n") == 3)
+        self.succeed("farm", "submit", "job", env=self.env)
+        complete = lambda: len(glob.glob(self.path("out/f.*.exr")))  # noqa: E731
+        self.wait("a quarter of the shot", lambda: complete() >= 25, step=0.05)
+        self.wait("a frame on n3", lambda: list(self.processes("SLURMD_NODENAME=n3")), step=0.05)
+        self.die("n3")
+        before = complete()
+        self.wait("the end of n3", lambda: "n3" in self.call("sinfo", "-h", "-N", "-t", "down"))
+        self.wait("the shot", lambda: not self.call("squeue", "-h"))
+        self.assertIn("complete  100\n", self.succeed("farm", "collect", "job", env=self.env).out)
+        for frame in range(1, 101):
+            self.assertEqual(self.content("out/f.%04d.exr" % frame), self.content("ref.%04d.exr" % frame), self.logs())
+        self.assertEqual(len(os.listdir(self.path("out"))), 100)
+        self.assertLess(before, 100)
+        print(f"n3 was killed after {before} of 100 frames", file=sys.stderr)
 
 
 if __name__ == "__main__":
