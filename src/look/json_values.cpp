@@ -8,15 +8,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Long values are cut: they are read by a person. What may be nested without end is not written out.
-std::string shown(const Json& json) {
-    if (json.is_object()) return "an object";
-    if (json.is_array()) return "this list";
-    constexpr std::size_t kMost = 60;
-    const std::string text = json.dump(-1, ' ', true, Json::error_handler_t::replace);
-    return text.size() > kMost ? text.substr(0, kMost) + "…" : text;
-}
-
 // The numbers of a list of so many, or nothing.
 std::optional<std::vector<double>> numbers(const Json& json, std::size_t count) {
     if (!json.is_array() || json.size() != count) return std::nullopt;
@@ -27,6 +18,15 @@ std::optional<std::vector<double>> numbers(const Json& json, std::size_t count) 
 }
 
 }  // namespace
+
+// Long values are cut: they are read by a person. What may be nested without end is not written out.
+std::string shown(const Json& json) {
+    if (json.is_object()) return "an object";
+    if (json.is_array()) return "this list";
+    constexpr std::size_t kMost = 60;
+    const std::string text = json.dump(-1, ' ', true, Json::error_handler_t::replace);
+    return text.size() > kMost ? text.substr(0, kMost) + "…" : text;
+}
 
 Error must_be(const std::string& what, const Json& json) {
     return {ErrorCode::InvalidFile, "must be " + what + ", not " + shown(json)};

@@ -44,6 +44,8 @@ Status from_json(const Json& json, Range& value);
 Status from_json(const Json& json, std::vector<BarrelRim>& rims);
 Status from_json(const Json& json, BarnDoors& doors);
 
+// The value for messages: ASCII on one line, cut if it is long.
+std::string shown(const Json& json);
 // "must be a whole number, not "five""
 Error must_be(const std::string& what, const Json& json);
 
@@ -51,7 +53,7 @@ template <typename E>
 requires std::is_enum_v<E> Status from_json(const Json& json, E& value) {
     if (!json.is_string()) return must_be("a name", json);
     const Result<E> read = parse<E>(json.get<std::string>());
-    if (!read) return Error{ErrorCode::InvalidFile, json.dump() + " is " + read.error().message};
+    if (!read) return Error{ErrorCode::InvalidFile, shown(json) + " is " + read.error().message};
     value = *read;
     return Done{};
 }

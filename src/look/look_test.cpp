@@ -226,6 +226,7 @@ TEST(LookWith, RefusesWhatItDoesNotKnow) {
     EXPECT_NE(refusal("lens.blade", "5").find("lens.blades"), std::string::npos);
     EXPECT_NE(refusal("lens.blades", "many").find("lens.blades"), std::string::npos);
     EXPECT_NE(refusal("quality", "best").find("best"), std::string::npos);
+    EXPECT_NE(refusal("depth.edges", "\xb5").find("depth.edges"), std::string::npos);  // no UTF-8
 }
 
 }  // namespace
