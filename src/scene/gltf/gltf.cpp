@@ -293,16 +293,17 @@ private:
             if (!all) return all.error();
             if (all->type == TINYGLTF_COMPONENT_TYPE_FLOAT)
                 return broken("indices that are no whole numbers");
-            for (std::size_t i = 0; i < all->count; ++i) order.push_back(std::uint32_t(all->at(i, 0)));
+            for (std::size_t i = 0; i < all->count; ++i) {
+                const double vertex = all->at(i, 0);
+                if (vertex < 0 || vertex >= double(mesh.positions.size()))
+                    return broken("a triangle of vertices that are not there");
+                order.push_back(std::uint32_t(vertex));
+            }
         } else {
             for (std::size_t i = 0; i < mesh.positions.size(); ++i) order.push_back(std::uint32_t(i));
         }
-        for (std::size_t i = 0; i + 2 < order.size(); i += 3) {
-            for (std::size_t k = 0; k < 3; ++k)
-                if (order[i + k] >= mesh.positions.size())
-                    return broken("a triangle of vertices that are not there");
+        for (std::size_t i = 0; i + 2 < order.size(); i += 3)
             mesh.triangles.push_back({order[i], order[i + 1], order[i + 2]});
-        }
         triangles_ += mesh.triangles.size();
         if (triangles_ > kMostTriangles) return broken("more than 20 million triangles");
         if (mesh.triangles.empty()) return broken("a mesh without triangles");

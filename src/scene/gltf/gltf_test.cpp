@@ -285,6 +285,8 @@ TEST_F(GltfScenes, WhatIsBrokenIsRefusedInOneLineThatNamesTheFile) {
         {R"("camera":0})", R"("children":[2]})"},
         {R"("mesh":1)", R"("mesh":7)"},
         {R"("POSITION":0)", R"("POSITION":1)"},
+        {R"("bufferView":1,"componentType":5123)",
+         R"("bufferView":0,"componentType":5120)"},  // indices below 0
         {R"("scale":[0.1,0.1,0.1])", R"("scale":[1e300,1e300,1e300])"},
         {R"("asset":{"version":"2.0"})",
          R"("asset":{"version":"2.0"},"extensionsRequired":["KHR_draco_mesh_compression"])"},
