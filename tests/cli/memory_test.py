@@ -1,30 +1,21 @@
 """Short memory: wherever it ends, one line and exit code 1; never an abort, never half a file."""
 import os
 import re
-import resource
 import subprocess
 import unittest
 
 from pictures import camera_attributes, picture, write_exr
-from program import PETZVAL, CommandLineTest
-
-MIB = 1 << 20
+from program import PETZVAL, SANITIZED, CommandLineTest, address_space
 
 
-def limited_to(mebibytes):
-    def limit():
-        resource.setrlimit(resource.RLIMIT_AS, (mebibytes * MIB,) * 2)
-        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    return limit
-
-
+@unittest.skipIf(SANITIZED, "needs a limit of addresses")
 class ShortMemory(CommandLineTest):
     def least(self):
         """The least in which the program starts at all: below, the loader of libraries says why not."""
         low, high = 16, 512
         while high - low > 2:
             middle = (low + high) // 2
-            started = self.run_program("--version", limits=limited_to(middle)).code == 0
+            started = self.run_program("--version", limits=address_space(middle)).code == 0
             low, high = (low, middle) if started else (middle, high)
         return high
 
@@ -35,7 +26,7 @@ class ShortMemory(CommandLineTest):
         ended = {0: 0, 1: 0}
         for command in (["scene", "make", "night", "--width", "48", "--height", "27"], ["defocus", "in.exr"]):
             for more in (0, 4, 12, 30, 60, 100, 120, 140, 160, 240):
-                outcome = self.run_program(*command, "-o", "out.exr", "-q", limits=limited_to(least + more))
+                outcome = self.run_program(*command, "-o", "out.exr", "-q", limits=address_space(least + more))
                 where = "%s in %d MiB\n%s" % (" ".join(command), least + more, outcome)
                 self.assertIn(outcome.code, ended, where)
                 ended[outcome.code] += 1
@@ -47,13 +38,11 @@ class ShortMemory(CommandLineTest):
         self.assertGreater(ended[1], 2)
 
     def test_a_limit_of_the_system_is_kept_to_and_what_is_enough_is_named(self):
-        if self.least() > 500:
-            self.skipTest("this build takes memory of its own")
         self.succeed("scene", "make", "table", "--width", "1280", "--height", "720", "--pinhole-samples", "1", "-o", "in.exr")
         defocus = ["defocus", "in.exr", "-o", "out.exr", "--kernel-cache", "off", "-q", "--threads", "1"]
-        refused = self.refuse(1, *defocus, limits=limited_to(self.least() + 72 + 80), says=["what ulimit -v leaves", "at least"])
+        refused = self.refuse(1, *defocus, limits=address_space(self.least() + 72 + 80), says=["what ulimit -v leaves", "at least"])
         named = int(re.search(r"ulimit -v (\d+) would be enough", refused.err).group(1))
-        self.succeed(*defocus, limits=limited_to(named // 1024 + 1))
+        self.succeed(*defocus, limits=address_space(named // 1024 + 1))
         group = "/sys/fs/cgroup/memory/petzval-test-%d" % os.getpid()
         try:
             os.mkdir(group)
@@ -76,14 +65,17 @@ class ShortMemory(CommandLineTest):
             os.rmdir(group)
 
     def test_each_verb_that_reads_keeps_to_a_limit_of_the_system(self):
-        if self.least() > 500:
-            self.skipTest("this build takes memory of its own")
         self.succeed("scene", "make", "table", "--width", "1280", "--height", "720", "--pinhole-samples", "1", "-o", "in.exr")
         for command in (["defocus", "in.exr", "-o", "out.exr"], ["develop", "in.exr", "-o", "out.png"],
                         ["compare", "in.exr", "in.exr"], ["sheet", "in.exr", "-o", "out.png", "--lenses", "doublet"],
                         ["inspect", "in.exr"]):
-            refused = self.refuse(1, *command, limits=limited_to(self.least() + 16), says=["what ulimit -v leaves", "in.exr takes"])
+            refused = self.refuse(1, *command, limits=address_space(self.least() + 16), says=["what ulimit -v leaves", "in.exr takes"])
             self.assertEqual(len(refused.lines), 1)
+
+    def test_a_scene_that_does_not_fit_is_refused_before_it_is_rendered(self):
+        refused = self.refuse(1, "scene", "make", "night", "--width", "8000", "--height", "8000", "-o", "big.exr", "-q",
+                              limits=address_space(self.least() + 160 + 400), says=["what ulimit -v leaves", "8000 x 8000"])
+        self.assertIn("would be enough", refused.err)
 
     def peak(self, *args):
         """Exit code and the largest memory of one run, MiB."""
@@ -93,8 +85,6 @@ class ShortMemory(CommandLineTest):
         return run.returncode, used.ru_maxrss / 1024
 
     def test_a_limit_names_what_is_used(self):
-        if self.least() > 500:
-            self.skipTest("this build takes memory of its own")
         self.succeed("scene", "make", "table", "--width", "1280", "--height", "720", "--pinhole-samples", "1", "-o", "in.exr")
         defocus = ["defocus", "in.exr", "-o", "out.exr", "--kernel-cache", "off", "-q", "--max-memory"]
         refused = self.refuse(1, *defocus, "20M", says=["takes at least"])
