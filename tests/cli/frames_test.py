@@ -9,7 +9,7 @@ import time
 import unittest
 
 from pictures import picture, read_exr, read_png, write_exr
-from program import CAMERA, PETZVAL, CommandLineTest
+from program import CAMERA, PETZVAL, CommandLineTest, address_space
 
 
 class Shots(CommandLineTest):
@@ -128,9 +128,7 @@ class Shots(CommandLineTest):
             self.refuse(3, "defocus", "in.####.exr", "-o", "out.####.exr", *CAMERA, "--track", "t.csv", says=["t.csv"])
 
     def test_a_track_with_keys_far_apart_lists_only_the_frames_that_are_asked_for(self):
-        def limits():
-            resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30))
-            resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        limits = address_space(1024)
         far_apart = [[2147483647], [-2147483648, 2147483647], [1, 2000000000]]
         for keys in far_apart:
             with open(self.path("t.json"), "w") as file:
