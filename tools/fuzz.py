@@ -27,15 +27,16 @@ def fuzzed(folder, corpus, seconds):
     found, failing = folder / "found" / corpus, folder / "failing"
     for path in (found, failing):
         path.mkdir(parents=True, exist_ok=True)
-    before = set(failing.iterdir())
-    command = [folder / f"fuzz_{target_of(corpus)}", f"-max_total_time={seconds}", "-max_len=16384", "-timeout=20",
+    before = set(failing.glob(f"{corpus}-*"))
+    command = [folder / f"fuzz_{target_of(corpus)}", f"-max_total_time={seconds}", "-max_len=16384", "-timeout=120",
                "-rss_limit_mb=2048", "-print_final_stats=1", f"-artifact_prefix={failing}/{corpus}-", found,
                CORPORA / corpus]
     print("+ " + " ".join(map(str, command)), file=sys.stderr, flush=True)
     done = subprocess.run(command, preexec_fn=lambda: os.nice(10), stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                          env={**os.environ, "PETZVAL_KERNEL_CACHE": "off"}, text=True, errors="replace")
+                          env={**os.environ, "PETZVAL_KERNEL_CACHE": "off", "ASAN_OPTIONS": "quarantine_size_mb=64"},
+                          text=True, errors="replace")
     (folder / f"{corpus}.log").write_text(done.stdout)
-    new = sorted(set(failing.iterdir()) - before)
+    new = sorted(set(failing.glob(f"{corpus}-*")) - before)
     if done.returncode:
         print(f"{corpus}: stopped, see {folder}/{corpus}.log; inputs: {' '.join(map(str, new))}", file=sys.stderr)
     return row_of(corpus, done.stdout, len(new) or int(done.returncode != 0)), done.returncode == 0
