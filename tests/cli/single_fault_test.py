@@ -1,7 +1,9 @@
 """One allocation, write or read of a run fails, once: the run ends with its right result or with one line and an
 exit code, never with a signal or half a file. PETZVAL_FAULTS names the library that makes calls fail."""
+import json
 import os
 import random
+import struct
 import unittest
 
 from pictures import camera_attributes, picture, write_exr
@@ -12,7 +14,14 @@ EACH = int(os.environ.get("PETZVAL_FAULTS_EACH", "16"))  # runs of a command; 0:
 RUNS = (["defocus", "in.0001.exr", "-o", "out.exr"],
         ["defocus", "in.####.exr", "-o", "out.####.png", "--frames", "1-2", "--engine", "gather"],
         ["scene", "make", "tori", "-o", "out.exr", "--width", "32", "--height", "18", "--pinhole-samples", "1"],
+        ["scene", "make", "in.gltf", "-o", "out.exr", "--width", "32", "--height", "18", "--pinhole-samples", "1"],
         ["lens", "psf", "doublet", "-o", "out.exr"])
+TRIANGLE = {
+    "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}], "nodes": [{"mesh": 0}, {"camera": 0}],
+    "cameras": [{"type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1}}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}], "buffers": [{"byteLength": 36, "uri": "in.bin"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [-1, -1, -3], "max": [1, 1, -3]}]}
 
 
 @unittest.skipUnless(os.path.exists(FAULTS), "this build has an allocator of its own")
@@ -22,6 +31,11 @@ class SingleFault(CommandLineTest):
         for frame in (1, 2):
             write_exr(self.path("in.%04d.exr" % frame), picture(48, 32, depth=lambda x, y: 1 + x / 40),
                       attributes=camera_attributes(50, 36, 1.4, 2))
+
+        with open(self.path("in.gltf"), "w") as file:
+            json.dump(TRIANGLE, file)
+        with open(self.path("in.bin"), "wb") as file:
+            file.write(struct.pack("<9f", -1, -1, -3, 1, -1, -3, 0, 1, -3))
 
     def outputs(self):
         return {name: self.content(name) for name in os.listdir(self.folder) if not name.startswith(("in.", "counts"))}
@@ -59,7 +73,7 @@ class SingleFault(CommandLineTest):
                 left = self.outputs()
                 if kind == "read" and outcome.code != 0:  # a farm tries again, and a user knows what to look at
                     self.assertIn(": cannot be read: Input/output error", outcome.err, where)
-                    self.assertRegex(outcome.err, r"in\.000[12]\.exr: cannot", where)
+                    self.assertRegex(outcome.err, r"in\.(000[12]\.exr|gltf|bin): cannot", where)
                 if outcome.code == 0:
                     self.assertEqual(left, right, where)
                 else:

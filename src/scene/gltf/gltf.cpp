@@ -2,6 +2,7 @@
 
 #include "scene/gltf/lights.h"
 #ifdef PETZVAL_GLTF
+#include "base/whole_file.h"
 #include "scene/gltf/animation.h"
 #include "scene/gltf/numbers.h"
 #endif
@@ -422,19 +423,33 @@ bool is_file(const std::string& path, void*) {
     std::error_code ignored;
     return std::filesystem::is_regular_file(path, ignored);
 }
-bool read_file(std::vector<unsigned char>* bytes, std::string* wrong, const std::string& path, void* user) {
-    if (is_file(path, user)) return tinygltf::ReadWholeFile(bytes, wrong, path, user);
-    if (wrong) *wrong += path + " is missing, or is no regular file\n";
-    return false;
+// tinygltf's own reader takes what a failing disk leaves out for zeros. failed: std::optional<Error>, of the
+// first file that the system did not read.
+bool read_file(std::vector<unsigned char>* bytes, std::string* wrong, const std::string& path, void* failed) {
+    constexpr std::size_t kMost = std::size_t(1) << 32;
+    const auto refuse = [&](const std::string& why) {
+        if (wrong) *wrong += path + why + "\n";
+        return false;
+    };
+    if (!is_file(path, failed)) return refuse(" is missing, or is no regular file");
+    const auto text = text_of_file(path, kMost);
+    auto& first = *static_cast<std::optional<Error>*>(failed);
+    if (!text && text.error().code == ErrorCode::ReadFailed && !first) first = text.error();
+    if (!text) return refuse(" cannot be read");
+    if (text->size() > kMost) return refuse(" is longer than 4 GiB");
+    bytes->assign(text->begin(), text->end());
+    return true;
 }
 
 Status load(const std::string& path, tinygltf::Model& model, std::vector<std::string>& warnings) {
     tinygltf::TinyGLTF loader;
+    std::optional<Error> failed;
     loader.SetFsCallbacks(
-        {&is_file, &tinygltf::ExpandFilePath, &read_file, &tinygltf::WriteWholeFile, nullptr});
+        {&is_file, &tinygltf::ExpandFilePath, &read_file, &tinygltf::WriteWholeFile, &failed});
     std::string wrong, warning;
     const bool fine = path.ends_with(".glb") ? loader.LoadBinaryFromFile(&model, &wrong, &warning, path)
                                              : loader.LoadASCIIFromFile(&model, &wrong, &warning, path);
+    if (failed) return *failed;
     if (!fine)
         return Error{ErrorCode::InvalidFile,
                      path + ": no glTF that can be read" + (wrong.empty() ? "" : ": " + first_line(wrong))};
