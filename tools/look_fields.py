@@ -19,6 +19,11 @@ HEAD = """# Look fields
 A look file (`--save-look`, `--look`) is one JSON object with these fields. A missing field keeps
 its default; an unknown field is refused, with the name of a similar one. `"inf"` stands for
 infinity. `tools/look_fields.py` generates this page from the program.
+
+Paths in a look file are relative to that file. Camera numbers, threads and outputs are not part of
+a look. A look may start from a preset: `{"petzval_look": 1, "preset": "night"}`. `--look` also
+takes a link of the [lens lab](lens-lab.md#links), or the part after its `#`: the look then has that
+lens and its controls, and a pasted lens as text.
 """
 
 

@@ -1,4 +1,4 @@
-// Links of the lens lab (docs/guide/lens-lab.md): a choice in the fragment of a URL,
+// Links of the lens lab (docs/reference/lens-lab.md): a choice in the fragment of a URL,
 // "lens=VERSION.BASE64URL" of JSON {"lens": {"name", "text", "look": {…}}, "camera": {…}, "light": {…}}.
 #pragma once
 
