@@ -62,8 +62,8 @@ const Elements& elements_of(const std::string& name) {
         {"diffractive", {{{-0.24, 0.20}, {0.14, 0.05, Shape::Steps}}}},
     };
     static const Elements none;
-    const auto found = std::find_if(std::begin(known), std::end(known),
-                                    [&](const auto& entry) { return entry.first == name; });
+    const auto* const found = std::find_if(std::begin(known), std::end(known),
+                                           [&](const auto& entry) { return entry.first == name; });
     return found == std::end(known) ? none : found->second;
 }
 

@@ -125,8 +125,11 @@ Result<Look> look_from_json(const std::string& text) {
             continue;
         }
         if (!value.is_object()) return no_look(key + ": must be an object with keys, like lens and glare");
-        for (const auto& [name, inner] : value.items())
-            if (const Status done = set(look, key + "." + name, inner); !done) return done.error();
+        for (const auto& [name, inner] : value.items()) {
+            std::string path = key;
+            path.append(".").append(name);
+            if (const Status done = set(look, path, inner); !done) return done.error();
+        }
     }
     return look;
 }

@@ -212,7 +212,7 @@ TEST(HostileFile, AFileThatIsStillBeingWrittenIsIncomplete) {
     std::size_t table = 0;
     for (std::size_t i = 300; i + 8 < bytes.size() && !table; ++i) {
         std::memcpy(&first_chunk, bytes.data() + i, 8);
-        if (first_chunk == i + 4 * 8) table = i;  // 64 lines of ZIP are four chunks
+        if (first_chunk == i + std::size_t{4} * 8) table = i;  // 64 lines of ZIP are four chunks
     }
     ASSERT_NE(table, 0u);
     std::memset(bytes.data() + table + 24, 0, 8);

@@ -208,12 +208,13 @@ bool write_pixels(PngWriting& w, const PngPixels& p) {
     }
     std::vector<png_byte> bytes = packed(p);
     std::vector<png_bytep> rows = row_pointers(bytes, p.height);
-    std::vector<png_text> texts(p.texts.size());  // libpng copies them
+    auto words = p.texts;  // png_text holds pointers to char that is not const
+    std::vector<png_text> texts(words.size());
     for (std::size_t i = 0; i < texts.size(); ++i) {
         texts[i].compression = PNG_TEXT_COMPRESSION_NONE;
-        texts[i].key = const_cast<char*>(p.texts[i].first.c_str());    // libpng does not write to it
-        texts[i].text = const_cast<char*>(p.texts[i].second.c_str());  // nor to this
-        texts[i].text_length = p.texts[i].second.size();
+        texts[i].key = words[i].first.data();
+        texts[i].text = words[i].second.data();
+        texts[i].text_length = words[i].second.size();
     }
     return write_png_rows(w, p, rows.data(), texts.data());
 }
