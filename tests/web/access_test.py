@@ -8,7 +8,8 @@ import pages
 from pages import SECONDS, SITE, ActionChains, Page, WebDriverWait
 from selenium.webdriver.common.keys import Keys
 
-PAGES = ("index.html", "story.html", "articles.html", "lenses/index.html", "lenses/takumar.html")
+PAGES = ("index.html", "story.html", "articles.html", "lenses/index.html", "lenses/takumar.html",
+         *(["three/demo.html"] if (SITE / "three").exists() else []))
 NAMED = {"button", "link", "slider", "textbox", "searchbox", "combobox", "spinbutton", "checkbox", "radio", "image", "img", "list", "group"}
 
 

@@ -114,7 +114,7 @@ class Page(unittest.TestCase):
 
 
 class WithoutWebAssembly(Page):
-    """A copy of the site with a program that is no WebAssembly. Subclasses name its file."""
+    """A copy of the site with a program that is not WebAssembly. Subclasses name its file."""
 
     broken = "petzval-lab.wasm"
 

@@ -10,7 +10,9 @@ import subprocess
 import tempfile
 import unittest
 
-from pages import PETZVAL, SITE, Page
+from pages import PETZVAL, SITE, By, Page
+from selenium.webdriver.common.keys import Keys
+
 from pictures import camera_attributes, read_exr, write_exr
 
 WIDTH, HEIGHT = 320, 180
@@ -77,6 +79,16 @@ class Three(Page):
         self.assertNotEqual(first, clicked)
         self.assertIsNone(self.done("demo.use('double-gauss')"))
         self.assertNotEqual(clicked, shown())
+        self.assertEqual(self.console(), [])
+
+    def test_it_fits_a_phone_and_focuses_by_keyboard(self):
+        self.narrow(360)
+        self.open(page="three/demo.html")
+        self.assertLessEqual(self.browser.execute_script("return document.documentElement.scrollWidth"), 360)
+        slider = self.browser.find_element(By.ID, "focus")
+        slider.send_keys(Keys.ARROW_RIGHT)
+        self.assertAlmostEqual(self.browser.execute_script("return demo.lens.focusDistance"), 2.1)
+        self.assertEqual(self.text("focus-value"), "2.10 m")
         self.assertEqual(self.console(), [])
 
     def test_without_depth_or_lens_it_says_so_once_and_stays_sharp(self):

@@ -14,7 +14,7 @@ for (let code = 0; code < 65536; code++) {
 }
 
 function headerOf(view) {
-  if (view.byteLength < 8 || view.getUint32(0, true) !== MAGIC) throw new Unreadable("it is no EXR");
+  if (view.byteLength < 8 || view.getUint32(0, true) !== MAGIC) throw new Unreadable("it is not an EXR");
   const flags = view.getUint32(4, true) >>> 8;
   if (flags & 0x18) throw new Unreadable("it is deep or has several parts; the page reads one flat part");
   if (flags & 0x02) throw new Unreadable("it is tiled; the page reads scan lines");

@@ -8,7 +8,7 @@ export function lookText({ name, text, look }) {
   return JSON.stringify({ petzval_look: 1, lens: { name: text ?? name, ...look } }, null, 2) + "\n";
 }
 
-/** @returns {?{lens: {name: string, text: ?string, look: object}, left_out: string[]}} null where the text is no look */
+/** @returns {?{lens: {name: string, text: ?string, look: object}, left_out: string[]}} null where the text is not a look */
 export function lensOfLook(text) {
   let told;
   try {

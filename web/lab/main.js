@@ -214,7 +214,7 @@ async function useText(text, name) {
   try {
     const { lensOfLook } = await import("./looks.js");
     const look = lensOfLook(text), lens = look?.lens ?? { name, text, look: {} };
-    await kernel.ask("facts", { lens }); // a text that is no lens changes nothing
+    await kernel.ask("facts", { lens }); // a text that is not a lens changes nothing
     await use(lens);
     if (look?.left_out.length) complain(`This page has no controls for ${look.left_out.join(", ")}: they are left out.`);
   } catch (error) {

@@ -59,7 +59,7 @@ const middleOf = (depth_m) => Float32Array.from(depth_m).filter(Number.isFinite)
 function reduced({ width, height, light, depth_m }) {
   const step = Math.max(1, Math.ceil(width / MOST_WIDE), Math.ceil(height / MOST_HIGH));
   const wide = Math.floor(width / step), high = Math.floor(height / step), middle = step >> 1;
-  if (!wide || !high) throw new Error(`${width} × ${height} is no picture to look at`);
+  if (!wide || !high) throw new Error(`${width} × ${height} is not a picture to look at`);
   const pixels = new Float32Array(4 * wide * high), depths = new Float32Array(wide * high);
   for (let y = 0; y < high; y++)
     for (let x = 0; x < wide; x++) {
@@ -88,7 +88,7 @@ async function codesOf(file, size = null) {
   try {
     bitmap = await createImageBitmap(file, { colorSpaceConversion: "none" });
   } catch {
-    throw new Error(`${file.name} is no picture that this browser reads`);
+    throw new Error(`${file.name} is not a picture that this browser reads`);
   }
   const { width, height } = size ?? bitmap, canvas = new OffscreenCanvas(width, height), pen = canvas.getContext("2d", { willReadFrequently: true });
   pen.drawImage(bitmap, 0, 0, width, height);

@@ -133,7 +133,7 @@ function checked(told) {
   if (typeof lens.name !== "string" || !(lens.text == null || typeof lens.text === "string")) throw new BadState("it names no lens");
   const known = new Map(CONTROLS.map((control) => [control.field, control]));
   for (const [field, value] of Object.entries(lens.look ?? {}))
-    if (!known.has(field) || !(FITS[field]?.(value) ?? typeof value === typeof known.get(field).value)) throw new BadState(`'${field}' is no control of this page`);
+    if (!known.has(field) || !(FITS[field]?.(value) ?? typeof value === typeof known.get(field).value)) throw new BadState(`'${field}' is not a control of this page`);
   return {
     lens: { name: lens.name, text: lens.text ?? null, look: lens.look ?? {} },
     camera: numbers(told.camera, CAMERA),

@@ -55,6 +55,7 @@ class Demo {
   draw() {
     this.composer.render();
     find("focus-value").textContent = `${this.lens.focusDistance.toFixed(2)} m`;
+    find("focus").value = this.lens.focusDistance;
     find("f-value").textContent = this.lens.fStop.toFixed(1);
     find("focal-value").textContent = Math.round(this.lens.focalLength);
   }
@@ -101,6 +102,7 @@ async function start() {
   changed("lens", (name) => demo.use(name));
   changed("f", (value) => { demo.lens.fStop = Number(value); });
   changed("focal", (value) => { demo.lens.focalLength = Number(value); });
+  changed("focus", (value) => { demo.lens.focusDistance = Number(value); });
   find("view").addEventListener("click", (event) => {
     const box = event.target.getBoundingClientRect();
     const place = new THREE.Vector2(((event.clientX - box.left) / box.width) * 2 - 1, 1 - ((event.clientY - box.top) / box.height) * 2);
