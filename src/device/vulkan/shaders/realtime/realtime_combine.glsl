@@ -126,13 +126,14 @@ void main() {
     vec4 near_lamps = vec4(0), back_lamps = vec4(0);
     add_all_lamps(pixel, reaches.x, near_lamps, back_lamps);
     vec4 near = vec4(0);
-    float area = 0, is_known = 1;
+    float area = 0, fine_area = 0, is_known = 1;
     if (reaches.x > 0.5) {
         const vec2 half_cell = 0.5 * smoothstep(4.0, 12.0, reaches.x) / vec2(8 * at.tiles);
         for (int i = 0; i < 4; ++i) {
             const vec2 there = place + half_cell * (2 * vec2(i & 1, i >> 1) - 1);
             near += 0.25 * textureLod(gathered, vec3(there, kGatheredNear), 0);
-            area += 0.25 * textureLod(gathered, vec3(there, kGatheredArea), 0).x;
+            const vec4 areas = textureLod(gathered, vec3(there, kGatheredArea), 0);
+            area += 0.25 * areas.x, fine_area += 0.25 * areas.w;
         }
     }
     const float hidden = blurred_share(-radius), blurred = blurred_share(abs(radius));
@@ -142,13 +143,11 @@ void main() {
         const vec4 back = back_at(pixel, radius, is_known);
         base = mix(base, back, is_known * blurred);
     }
-    base = own.near + (1 - own.area) * base;
-    vec4 made = base;
-    if (area > 0) {
-        const bool fills = is_known == 0 && hidden > 0.99;
-        const float covers = fills ? 1.0 : min(area, 1.0);
-        made = near * (covers / area) + (1 - covers) * base;
-    }
+    const bool fills = area > 0 && is_known == 0 && hidden > 0.99;
+    const float covers = fills ? 1.0 : min(area, 1.0);
+    // A surface that both draw in part is one: its parts lie side by side.
+    const float free = 1 - covers, open = min(free + min(fine_area, covers), own.area > 0 ? free / own.area : 1.0);
+    vec4 made = (area > 0 ? covers / area : 0.0) * near + open * own.near + (free - open * own.area) * base;
     made += (1 - own.area) * back_lamps + near_lamps;
     if (at.has_layer != 0u) {
         const vec4 layer = finite_of(texelFetch(over, pixel, 0));

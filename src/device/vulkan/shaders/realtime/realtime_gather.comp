@@ -134,19 +134,21 @@ vec4 hidden_of(vec2 middle, float own_px, float most_px, out float is_known) {
     return mix(mean, gathered, blurred * smoothstep(0.0, 0.1, seen));
 }
 
-vec4 near_of(vec2 middle, float radius, out float area) {
+// Area: of all light in front of focus; of that so little blurred that a part of it is blurred pixel by pixel.
+vec4 near_of(vec2 middle, float radius, out vec2 area) {
     const Disc disc = disc_of(middle, radius);
     const float per_radius = 1 / radius, least = 0.5 * per_radius;
     vec4 light = vec4(0);
-    area = 0;
+    area = vec2(0);
     for (int i = 0; i < taps; ++i) {
         const vec2 tap = tap_of(i).xy;
         const vec3 there = read_cells(disc, tap, kNear).xyz;
         if (there.x < kLeastArea) continue;
-        const vec4 w = weight_of(kNearSide, i, max(near_radius(there) * per_radius, least));
+        const float reaches = near_radius(there);
+        const vec4 w = weight_of(kNearSide, i, max(reaches * per_radius, least));
         if (w.a == 0) continue;
         light += w * read_cells(disc, tap, kNearLight);
-        area += w.a * there.x;
+        area += w.a * there.x * vec2(1, clamp(kWholePx - reaches, 0.0, 1.0));
     }
     return light;
 }
@@ -160,7 +162,8 @@ void main() {
     first_tap = kMostTaps * ((cell.x & 1) + 2 * (cell.y & 1));
     const vec4 own = texelFetch(cells, ivec3(cell, kBack), 0);
     const bool has = own.z > 0.02;
-    float is_known = 1, area = 0;
+    float is_known = 1;
+    vec2 area = vec2(0);
     vec4 back;
     if (has) {
         const vec4 own_light = texelFetch(cells, ivec3(cell, kBackLight), 0) / own.x;
@@ -175,5 +178,5 @@ void main() {
     imageStore(gathered, ivec3(cell, kGatheredBack), back);
     imageStore(gathered, ivec3(cell, kGatheredNear), near);
     const float own_px = has ? back_radius(own) : 0.0;
-    imageStore(gathered, ivec3(cell, kGatheredArea), vec4(area, own_px, is_known, own.x));
+    imageStore(gathered, ivec3(cell, kGatheredArea), vec4(area.x, own_px, is_known, area.y));
 }
