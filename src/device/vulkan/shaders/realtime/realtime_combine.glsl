@@ -18,21 +18,26 @@ float radius_at(ivec2 pixel) {
 // that the group reads once. Background is seen through the pixel's own disc.
 const int kRim = 3, kAcross = 8 + 2 * kRim;  // pixels
 shared vec4 window[kAcross * kAcross];
-shared vec2 window_discs[kAcross * kAcross];  // signed radius, at least half a pixel; light that a pixel of the disc gets
+shared vec2 window_discs[kAcross * kAcross];  // signed reach, at least half a pixel; light that a pixel of the disc gets
 shared float distances[kRim + 1][kRim + 1];
 float of_each(float radius_px) {
-    return (1 - blurred_share(radius_px)) / max(1.0, 3.14159 * (radius_px * radius_px + 1.0 / 12));
+    return (1 - blurred_share(radius_px)) / max(1.0, 3.14159 * radius_px * radius_px);
 }
-float at_least_half(float radius) { return radius < 0 ? min(radius, -0.5) : max(radius, 0.5); }
+// A disc covers a pixel half at this distance between their middles, with the radius's sign: a circle's rim bends away
+// from a square's side.
+float reach_of(float radius) {
+    const float all = max(abs(radius), 0.5), reach = max(all - 1 / (24 * all), 0.5);
+    return radius < 0 ? -reach : reach;
+}
 // All invocations of the group together.
 void read_window() {
     const int own = int(gl_LocalInvocationIndex);
     const ivec2 first = 8 * ivec2(gl_WorkGroupID.xy) - kRim;
     for (int i = own; i < kAcross * kAcross; i += 64) {
         const ivec2 there = clamp(first + ivec2(i % kAcross, i / kAcross), ivec2(0), at.size - 1);
-        const float radius = at_least_half(radius_at(there));
+        const float radius = radius_at(there);
         window[i] = finite_of(texelFetch(colours, there, 0));
-        window_discs[i] = vec2(radius, of_each(abs(radius)));
+        window_discs[i] = vec2(reach_of(radius), of_each(abs(radius)));
     }
     if (own < 16) distances[own / 4][own % 4] = length(vec2(own % 4, float(own / 4) / at.aspect));
 }
@@ -48,7 +53,7 @@ Fine fine(vec4 sharp, float radius, float back_px, float near_px) {
     const int own = (int(gl_LocalInvocationID.y) + kRim) * kAcross + int(gl_LocalInvocationID.x) + kRim;
     vec4 back = vec4(0);
     float back_area = 0;
-    const float opening = max(radius, 0.5), of_opening = of_each(opening);
+    const float opening = reach_of(max(radius, 0.0)), of_opening = of_each(max(radius, 0.0));
     int far = last_offset(back_px);
     for (int y = -far; y <= far; ++y)
         for (int x = -far; x <= far; ++x) {
