@@ -27,7 +27,7 @@ float radius_of(float depth) {
 }
 // The share of something at a radius that cells draw; the rest is blurred pixel by pixel.
 const float kWholePx = 3.5;  // from there on they draw all
-float blurred_share(float radius_px) { return smoothstep(1.5, kWholePx, radius_px); }
+float blurred_share(float radius_px) { return smoothstep(2.0, kWholePx, radius_px); }
 // The radius if something this blurred is blurred pixel by pixel, 0 if not.
 float pixelwise(float radius_px) { return radius_px > 0.5 && radius_px < kWholePx ? radius_px : 0.0; }
 // The radius that cells gather over: with the blur of the cells themselves (boxes and tents of two pixels)

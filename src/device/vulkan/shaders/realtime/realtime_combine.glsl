@@ -46,10 +46,10 @@ int last_offset(float radius_px) { return min(int(ceil(max(radius_px, 0.5) + 0.5
 
 struct Fine {
     vec4 back, near;
-    float area;  // of what is in front of focus
+    float back_area, area;  // of what is behind focus or taken for it, 0: `back` is sharp; of what is in front
 };
 Fine fine(vec4 sharp, float radius, float back_px, float near_px) {
-    Fine sum = Fine(sharp, vec4(0), 0);
+    Fine sum = Fine(sharp, vec4(0), 0, 0);
     const int own = (int(gl_LocalInvocationID.y) + kRim) * kAcross + int(gl_LocalInvocationID.x) + kRim;
     vec4 back = vec4(0);
     float back_area = 0;
@@ -73,17 +73,25 @@ Fine fine(vec4 sharp, float radius, float back_px, float near_px) {
             sum.near += area * window[there];
             sum.area += area;
         }
-    if (back_area > 1e-3) sum.back = back / back_area;
-    else if (radius < 0) {
-        // Background behind a near surface is estimated from its surroundings, or continues them.
+    if (back_area > 1e-3) {
+        sum.back = back / back_area;
+        sum.back_area = min(back_area, 1.0);
+    } else if (radius < 0) {
+        // Background behind a near surface is estimated from its surroundings, from the nearest first, or continues them.
         vec4 guess = vec4(0);
         float guess_area = 0;
-        for (int i = 0; i < (2 * kRim + 1) * (2 * kRim + 1); ++i) {
-            const int there = own + (i / (2 * kRim + 1) - kRim) * kAcross + i % (2 * kRim + 1) - kRim;
-            if (window_discs[there].x < 0) continue;
-            const float likely = 1 / (1 + brightness(window[there]));
-            guess += likely * window[there], guess_area += likely;
-        }
+        for (int y = -kRim; y <= kRim; ++y)
+            for (int x = -kRim; x <= kRim; ++x) {
+                const int there = own + y * kAcross + x;
+                const float away = distances[abs(y)][abs(x)];
+                if (window_discs[there].x < 0) continue;
+                const float close = 1 / (1 + away * away);
+                const float drawn = (1 - blurred_share(window_discs[there].x)) * close * close * close;
+                const float likely = max(drawn, 1e-3) / (1 + brightness(window[there]));
+                guess += likely * window[there];
+                guess_area += likely;
+                sum.back_area = min(sum.back_area + 3 * drawn, 1.0);
+            }
         if (guess_area > 0) sum.back = guess / guess_area;
         else if (sum.area > 0) sum.back = sum.near / sum.area;
     }
@@ -126,8 +134,9 @@ void main() {
     const bool is_fine = max(reaches.y, reaches.z) > 0;
     if (is_fine) read_window();
     barrier();
-    Fine own = Fine(finite_of(texelFetch(colours, pixel, 0)), vec4(0), 0);
+    Fine own = Fine(finite_of(texelFetch(colours, pixel, 0)), vec4(0), 0, 0);
     if (is_fine) own = fine(own.back, radius, reaches.y, reaches.z);
+    const float hidden = blurred_share(-radius), blurred = blurred_share(abs(radius));
     vec4 near_lamps = vec4(0), back_lamps = vec4(0);
     add_all_lamps(pixel, reaches.x, near_lamps, back_lamps);
     vec4 near = vec4(0);
@@ -138,15 +147,16 @@ void main() {
             const vec2 there = place + half_cell * (2 * vec2(i & 1, i >> 1) - 1);
             near += 0.25 * textureLod(gathered, vec3(there, kGatheredNear), 0);
             const vec4 areas = textureLod(gathered, vec3(there, kGatheredArea), 0);
-            area += 0.25 * areas.x, fine_area += 0.25 * areas.w;
+            area += 0.25 * areas.x;
+            fine_area += 0.25 * areas.w;
         }
     }
-    const float hidden = blurred_share(-radius), blurred = blurred_share(abs(radius));
     // A completely near pixel has no sharp part; some of its background may be known.
     vec4 base = own.back;
     if (blurred > 0) {
         const vec4 back = back_at(pixel, radius, is_known);
-        base = mix(base, back, is_known * blurred);
+        // Light drawn pixel by pixel, whichever pixel it comes from, leaves the rest of the pixel's lens to cells.
+        base = mix(base, back, is_known * min(blurred, 1 - own.back_area));
     }
     const bool fills = area > 0 && is_known == 0 && hidden > 0.99;
     const float covers = fills ? 1.0 : min(area, 1.0);

@@ -81,7 +81,8 @@ void main() {
     const float kLampReach = 1.25, kBorder = 2;  // of the radius; pixels: what a kernel covers
     const ivec2 far = ivec2((kLampReach * vec2(at.most_px, at.most_px * at.aspect) + kBorder) / float(kTile)) + 1;
     const ivec2 low = max(tile - far, ivec2(0)), high = min(tile + far, at.tiles - 1);
-    float most = 0, fine_near = 0;
+    float most = 0;
+    vec2 fine = vec2(0);
     uint all = 0;
     ivec4 box = ivec4(at.tiles, -1, -1);
     for (int y = low.y; y <= high.y; ++y)
@@ -92,7 +93,7 @@ void main() {
             vec2 gap = float(kTile) * vec2(max(abs(ivec2(x, y) - tile) - 1, ivec2(0)));
             gap.y /= at.aspect;
             if (radius > most && dot(gap, gap) <= (radius + 1) * (radius + 1)) most = radius;
-            if (gap == vec2(0)) fine_near = max(fine_near, found.z);
+            if (gap == vec2(0)) fine = max(fine, found.yz);
             const uvec4 lamp = lamps[y * at.tiles.x + x];
             const float wide = kLampReach * uintBitsToFloat(lamp.z) + kBorder;
             if ((lamp.x | lamp.y) == 0u || max(gap.x, gap.y) > wide) continue;
@@ -100,8 +101,7 @@ void main() {
             all += uint(bitCount(lamp.x) + bitCount(lamp.y));
         }
     boxes[own] = box;
-    // Light behind focus is seen through a pixel's own disc, so other tiles do not widen it.
-    reach[own] = vec4(most, tiles[own].y, fine_near, tiles[own].w);
+    reach[own] = vec4(most, fine, tiles[own].w);
     const uvec4 lamp = lamps[own];
     kept[own] = uvec4(all > kMostLamps ? thinned(tile, lamp.xy, all) : lamp.xy, lamp.zw);
 }

@@ -122,7 +122,7 @@ void main() {
         near_counts += near_count;
         near_radius += near_count * gathered_radius(radius);
         // Light in focus hardly counts, or a tap between two cells would gather it.
-        const float weight = back * mix(1e-3, 1.0, smoothstep(0.5, 1.5, radius));
+        const float drawn = blurred_share(radius), weight = back * max(2 * drawn / (1 + drawn), 1e-3);
         back_light += weight * light, back_area += back, back_weight += weight;
         // Emptiness has the radius of the surface beside it, or that surface would be blurred by the radius
         // of emptiness.
