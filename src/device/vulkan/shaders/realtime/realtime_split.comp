@@ -60,33 +60,45 @@ void keep_lamp(ivec2 cell, vec4 light, vec2 place) {
     }
 }
 
-// The signed radius of a pixel. A silhouette pixel shows a near surface and its background, and may have the
-// background's depth: if the near surface gives most of its light, the pixel gets its radius.
-float own_radius(ivec2 pixel, vec4 light) {
+// The share of a near colour in a pixel whose colour lies between it and one behind it; 0: it does not.
+float share_of(vec4 near, vec4 light, vec4 behind) {
     const float kAlike = 0.97;
-    const float kApart = 1.5;  // pixels: less is blurred alike
+    const vec3 more = light.rgb - behind.rgb, most = near.rgb - behind.rgb;
+    const float share = dot(more, most) / dot(most, most);
+    return share > 0.02 && share * length(most) > kAlike * length(more) ? share : 0.0;
+}
+
+// The signed radius of a pixel. A silhouette pixel shows a near surface and its background, and may have the background's
+// depth. It gets the near surface's radius if that gives most of its light; or if that is hardly blurred, because the
+// pixel is then part of a sharp outline.
+float own_radius(ivec2 pixel, vec4 light) {
+    const float kApart = 0.4;  // pixels: less is blurred alike
+    const float kSharpPx = 2;
     const float radius = radius_of(texelFetch(depths, pixel, 0).r), own = brightness(light);
-    vec4 near = light;
-    float found = radius;
-    ivec2 to = ivec2(0);
+    vec4 bright = light, dark = light;
+    vec2 found = vec2(radius);  // of the brightest nearer pixel around, and of the darkest
+    ivec2 to_bright = ivec2(0), to_dark = ivec2(0);
     // A loop: nine pixels at once take half as many registers again.
     [[dont_unroll]] for (int i = 0; i < 9; ++i) {
         const ivec2 d = ivec2(i % 3, i / 3) - 1, there = clamp(pixel + d, ivec2(0), at.size - 1);
         const float reaches = radius_of(texelFetch(depths, there, 0).r);
         if (reaches > radius - kApart) continue;
         const vec4 colour = light_of(texelFetch(colours, there, 0));
-        if (brightness(colour) > brightness(near)) near = colour, found = reaches, to = d;
+        if (brightness(colour) > brightness(bright)) bright = colour, found.x = reaches, to_bright = d;
+        if (brightness(colour) < brightness(dark)) dark = colour, found.y = reaches, to_dark = d;
     }
+    const bool is_dark = to_bright == ivec2(0);
+    const ivec2 to = is_dark ? to_dark : to_bright;
     if (to == ivec2(0)) return radius;
+    const float near_px = is_dark ? found.y : found.x;
+    const vec4 near = is_dark ? dark : bright;
     const ivec2 across = clamp(pixel - 2 * to, ivec2(0), at.size - 1);
-    if (radius_of(texelFetch(depths, across, 0).r) < found + kApart) return radius;
+    if (radius_of(texelFetch(depths, across, 0).r) < near_px + kApart) return radius;
     const vec4 behind = light_of(texelFetch(colours, across, 0));
-    if (brightness(near) < 1.5 * brightness(behind)) return radius;
-    // A mixture of both lies between them.
-    const vec3 more = light.rgb - behind.rgb, most = near.rgb - behind.rgb;
-    const float share = dot(more, most) / dot(most, most);
-    const bool is_mixed = share > 0.02 && share * length(most) > kAlike * length(more);
-    return is_mixed && share * brightness(near) > 0.5 * own ? found : radius;
+    const float share = share_of(near, light, behind);
+    if (share == 0) return radius;
+    if (!is_dark) return brightness(near) >= 1.5 * brightness(behind) && share * brightness(near) > 0.5 * own ? near_px : radius;
+    return share < 1 && near_px > -0.5 && near_px < kSharpPx && brightness(behind) < 4 * surroundings_at(pixel).x ? near_px : radius;
 }
 
 // Weight of this light in the mean radius over several depths. The square root of brightness keeps the sum of weights
