@@ -118,10 +118,10 @@ vec4 hidden_of(vec2 middle, float own_px, float most_px, out float is_known) {
                 back_px += w * back.z * back_radius(back);
                 back_area += w * back.z;
             }
-            const vec3 near = read_cells(disc, tap, kNear).xyz;
-            const float behind = near.x > kLeastArea ? w * smoothstep(0.8, 0.6, near_radius(near) / own_px) : 0.0;
+            const vec4 near = read_cells(disc, tap, kNear);
+            const float behind = near.x > kLeastArea ? w * smoothstep(0.8, 0.6, near_radius(near.xyz) / own_px) : 0.0;
             if (behind > 0)
-                guess(read_cells(disc, tap, kNearLight), near.x, behind, light, area);
+                guess(read_cells(disc, tap, kNearLight) * (near.w / near.x), near.w, behind, light, area);
         }
         if (area > 0.05 || radius == most_px) break;
     }

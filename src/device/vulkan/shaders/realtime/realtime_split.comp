@@ -127,7 +127,7 @@ void main() {
             lamp += taken, lamp_place += brightness(taken) * (vec2(corner) + 0.5);
         }
         range = max(range, vec4(-radius, pixelwise(radius), pixelwise(-radius), -radius));
-        const float near = 0.25 * blurred_share(-radius), back = 0.25 - near;
+        const float near = 0.25 * blurred_share(-radius), back = 0.25 * smoothstep(-2.5, -2.0, radius);
         near_light += near * light, near_area += near;
         // The mean over two depths has the radius of the brighter light.
         const float near_count = near * counts_of(light);
@@ -145,7 +145,7 @@ void main() {
     part[kBackLight][own] = back_light;
     part[kBack][own] = vec4(back_weight, back_radius, back_area, back_counts);
     part[kNearLight][own] = near_light;
-    part[kNear][own] = vec4(near_area, near_radius, near_counts, 0);
+    part[kNear][own] = vec4(near_area, near_radius, near_counts, 1 - back_area);
     radii[own] = range;
     for (int k = 0; k < kLayers; ++k) imageStore(cells_1, ivec3(cell, k), part[k][own]);
     imageStore(cells_1, ivec3(cell, kRadii), own_radii);
