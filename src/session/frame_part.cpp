@@ -1,5 +1,6 @@
 #include "session/frame_part.h"
 
+#include "engine/samples/behind/smooth.h"
 #include "engine/samples/lamps.h"
 #include "engine/samples/outlines/hidden_outlines.h"
 
@@ -28,7 +29,8 @@ engine::CocSamples part_of(const engine::CocSamplesView& whole, const Rect& pixe
 int region_margin_px(double largest_radius_px, double reach_px) {
     constexpr double kMost = 1 << 20;  // of any picture
     // The other end of a lamp comes from as far as it is wide, and so far one has to look to know how wide.
-    constexpr int kAround = std::max(2 * engine::kWidestLampPx + 40, engine::kOutlineReachPx);
+    constexpr int kAround =
+        std::max(2 * engine::kWidestLampPx + 40, engine::kOutlineReachPx + engine::kSmoothReachPx);
     return int(std::ceil(std::min(kMost, 4 * std::max(largest_radius_px, reach_px)))) + kAround;
 }
 

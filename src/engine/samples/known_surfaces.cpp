@@ -63,7 +63,7 @@ CutEdges::Point KnownSurfaces::behind(Place at, Direction outwards, float distan
 }
 
 Rgba KnownSurfaces::going_on(Place from, Direction outwards, float distance_px) const {
-    const Rgba own = wide_colour(from, outwards, distance_px);
+    const Rgba own = seen_through_blur(from, outwards, distance_px);
     if (white_ <= 0) return own;
     const float light = std::max(light_of(own), light_of(colour(from.x, from.y)));
     const float falls = above(light, completion_model.light * white_);
@@ -85,15 +85,14 @@ Rgba KnownSurfaces::among_lights(Rgba own, Place from, Direction outwards, float
     return own * (1 - lit) + lit * all;
 }
 
-// The blur hides detail as well: the mean over at least a part of that blur, here and farther outwards.
-Rgba KnownSurfaces::wide_colour(Place at, Direction outwards, float distance_px) const {
-    const CompletionModel& model = completion_model;
+// The blur hides detail: the mean over a part of that blur, across and farther outwards.
+Rgba KnownSurfaces::seen_through_blur(Place at, Direction outwards, float distance_px) const {
     const CutEdges::Point hidden = behind(at, outwards, distance_px);
-    const float blur_px = std::abs(at.coc_px), wide = model.wide_share * std::max(distance_px, blur_px);
+    const float part_px = completion_model.blur_mean * std::abs(at.coc_px);
     Rgba sum = colour(at.x, at.y);
     float total = 1;
-    for (const float out : {0.0f, model.deep_share * blur_px})
-        for (const float aside : {-wide, 0.0f, wide}) {
+    for (const float out : {0.0f, part_px})
+        for (const float aside : {-part_px, 0.0f, part_px}) {
             const int dx = nearest_pixel(out * outwards.x - aside * outwards.y),
                       dy = nearest_pixel(out * outwards.y + aside * outwards.x);
             const int x = at.x + dx, y = at.y + dy;

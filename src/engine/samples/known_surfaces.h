@@ -46,10 +46,9 @@ public:
         int x, y;
         float coc_px;
     };
-    // The surface as it continues from there against `outwards`, hidden, over `distance_px`: a mean as wide
-    // as one of sixteen directions at that distance. Bright light falls to the light of the surface beyond it
-    // (from here, outwards), the more so the smaller it is compared with the distance. So a light fades as it
-    // slips behind an edge.
+    // The surface as it continues from there against `outwards`, hidden, over `distance_px`. Bright light
+    // falls to the light of the surface beyond it (from here, outwards), the more so the smaller it is
+    // compared with the distance. So a light fades as it slips behind an edge.
     Rgba going_on(Place from, Direction outwards, float distance_px) const;
     // Weight of the colour there for the hidden pixel (x, y), 0…1: small behind an edge that continues
     // between them.
@@ -61,7 +60,7 @@ private:
     static CutEdges::Point behind(Place at, Direction outwards, float distance_px);
     void find_lights(Workers& workers);
     bool lights_around(Place at) const { return lights_around_(at.x / kBlock, at.y / kBlock) != 0; }
-    Rgba wide_colour(Place at, Direction outwards, float distance_px) const;
+    Rgba seen_through_blur(Place at, Direction outwards, float distance_px) const;
     Rgba among_lights(Rgba own, Place from, Direction outwards, float distance_px) const;
     struct Mean {
         float span;                                            // times the distance

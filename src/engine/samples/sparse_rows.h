@@ -22,7 +22,9 @@ public:
     SparseRows() = default;          // no pixel has one
     // To be found row by row.
     SparseRows(int width, int height)
-        : words_((width + 63) / 64, height), bands_(std::size_t((height + kBand - 1) / kBand)) {}
+        : width_(width),
+          words_((width + 63) / 64, height),
+          bands_(std::size_t((height + kBand - 1) / kBand)) {}
     // Bands in parallel: find(y, emit) as of find_row().
     template <typename Find>
     SparseRows(int width, int height, Workers& workers, const Find& find) : SparseRows(width, height) {
@@ -52,6 +54,8 @@ public:
     }
 
     bool empty() const { return bands_.empty(); }
+    int width() const { return width_; }
+    int height() const { return words_.height(); }
     const T* at(int x, int y) const { return find(*this, x, y); }
     T* at(int x, int y) { return find(*this, x, y); }
     // The values of a row from the left, as visit(x, value).
@@ -93,6 +97,7 @@ private:
         std::uint64_t has = 0;
         std::uint32_t before = 0;
     };
+    int width_ = 0;
     Image<Word> words_;
     std::vector<BigVector<T>> bands_;
 };

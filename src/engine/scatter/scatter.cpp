@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "device/device.h"
 #include "engine/lights/highlights.h"
+#include "engine/samples/behind/smooth.h"
 #include "engine/samples/complete.h"
 #include "engine/samples/connectivity.h"
 #include "engine/samples/lamps.h"
@@ -98,7 +99,7 @@ Result<StripPlan> plan_strips(const EngineView& input, const LevelRule& rule, co
     StripPlan plan;
     // Rows around a row that can change it: sources that spread onto it, and the neighbourhood that decides
     // which surfaces lie hidden there. The other end of a lamp is as far again.
-    constexpr int kLookedAtPx = std::max(2 * kWidestLampPx + 16, kOutlineReachPx);
+    constexpr int kLookedAtPx = std::max(2 * kWidestLampPx + 16, kOutlineReachPx + kSmoothReachPx);
     const double reach = std::min(input.lens.level(0).reach_px(largest), double(input.height()));
     plan.halo = whole_units(1.2 * reach + 4.0 * (1 << coarsest) +
                             2 * std::min(largest, double(input.height())) + kLookedAtPx);

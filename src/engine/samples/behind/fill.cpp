@@ -1,5 +1,6 @@
 #include "base/parallel.h"
 #include "engine/samples/behind/search.h"
+#include "engine/samples/behind/smooth.h"
 #include "engine/samples/completion_model.h"
 #include "engine/samples/hidden.h"
 #include "engine/samples/known_surfaces.h"
@@ -26,14 +27,21 @@ using Patch = std::array<Rgba, kPatch>;
 // Weighted votes on the colour of a hidden surface.
 class Votes {
 public:
-    void add(Rgba colour, float coc_px, float weight) {
-        colour_ += weight * colour, coc_ += weight * coc_px, total_ += weight;
+    // A colour. A texture states a share of it.
+    void add(Rgba colour, const HiddenTextures::Point::Told& told, float weight) {
+        const float plain = weight * (1 - told.share);
+        colour_ += plain * colour, plain_ += plain, texture_ += weight * told.colour;
     }
-    Hidden mean() const { return {colour_ * (1 / total_), coc_ / total_, 1}; }
+    void add(float coc_px, float weight) { coc_ += weight * coc_px, total_ += weight; }
+    HiddenGuess mean() const {
+        HiddenGuess guess{{{}, coc_ / total_, 1}, texture_ * (1 / total_), plain_ / total_, 0};
+        if (plain_ > 0) guess.seen.colour = colour_ * (1 / plain_);
+        return guess;
+    }
 
 private:
-    Rgba colour_;
-    float coc_ = 0, total_ = 0;
+    Rgba colour_, texture_;
+    float plain_ = 0, coc_ = 0, total_ = 0;
 };
 
 class Filler {
@@ -51,10 +59,11 @@ public:
           every_(std::size_t(kDirections / rule.directions)),
           every_blurred_(std::size_t(kDirections / rule.blurred_directions)) {}
 
+    const KnownSurfaces& known() const { return known_; }
     bool may_hide(int x, int y) const { return search_.may_hide(x, y); }
 
     // Appends the surfaces behind (x, y), if a lens ray that passes the occluder reaches any of them.
-    void fill(int x, int y, std::vector<Hidden>& hidden) const {
+    void fill(int x, int y, std::vector<HiddenGuess>& hidden) const {
         const Mixture* m = mixtures_.at(x, y);
         const float own = m ? m->near_coc_px : coc_(x, y);
         Hits hits;
@@ -132,9 +141,9 @@ private:
     // The surfaces met, nearest first. The farthest fills the rest; a nearer one takes the share that it has
     // of the surroundings, so a wire behind a leaf continues as a wire. Where its outline continues hidden,
     // it takes all on its side.
-    void stack(int x, int y, float own_px, Hits& hits, std::vector<Hidden>& hidden) const {
+    void stack(int x, int y, float own_px, Hits& hits, std::vector<HiddenGuess>& hidden) const {
         float all_behind = 0, unhidden_behind = 0;
-        std::array<Hidden, kSurfaces + 1> surfaces;
+        std::array<HiddenGuess, kSurfaces + 1> surfaces;
         std::size_t n = 0;
         for (bool first = true;; first = false) {
             // The farthest that is left, and all that belongs to it.
@@ -144,34 +153,30 @@ private:
                     if (f.found) farthest = std::max(farthest, f.coc_px);
             if (farthest < -1e29f) break;
             Met met;
-            Hidden next = surface(x, y, own_px, hits, farthest, met);
+            HiddenGuess next = surface(x, y, own_px, hits, farthest, met);
             const float inside = met.within / met.all;
             const float behind = all_behind + inside * (unhidden_behind - all_behind);
-            next.share = first ? 1 : sharpened(met.within / (met.within + behind + 1e-9f));
+            next.seen.share = first ? 1 : sharpened(met.within / (met.within + behind + 1e-9f));
             all_behind += met.within, unhidden_behind += met.unhidden * inside;
             surfaces[n++] = next;
             if (n > kSurfaces) drop_least(surfaces), --n;
         }
-        while (n > 0) {
-            Hidden& nearest = surfaces[--n];
-            nearest.colour *= nearest.share;
-            hidden.push_back(nearest);
-        }
+        while (n > 0) hidden.push_back(surfaces[--n]);
     }
 
     // Removes the surface, of those ordered from the farthest to the nearest, that shows least of itself. The
     // farthest that stays fills the rest.
-    static void drop_least(std::span<Hidden> surfaces) {
+    static void drop_least(std::span<HiddenGuess> surfaces) {
         float open = 1, least = 2;
         std::size_t dropped = 0;
         for (std::size_t i = surfaces.size(); i-- > 0;) {
-            const float shows = open * surfaces[i].share;
+            const float shows = open * surfaces[i].seen.share;
             if (shows < least) least = shows, dropped = i;
-            open *= 1 - surfaces[i].share;
+            open *= 1 - surfaces[i].seen.share;
         }
         std::copy(surfaces.begin() + std::ptrdiff_t(dropped) + 1, surfaces.end(),
                   surfaces.begin() + std::ptrdiff_t(dropped));
-        surfaces[0].share = 1;
+        surfaces[0].seen.share = 1;
     }
 
     // Radius of the nearest hit on the surface whose farthest hit is at farthest_px. A sloping floor is hit
@@ -189,7 +194,7 @@ private:
     }
 
     // The estimate of the surface behind (x, y) whose farthest hit is at `coc_px`. Its hits are used up.
-    Hidden surface(int x, int y, float own_px, Hits& hits, float coc_px, Met& met) const {
+    HiddenGuess surface(int x, int y, float own_px, Hits& hits, float coc_px, Met& met) const {
         Votes votes;
         HiddenTextures::Point hidden(textures_, x, y);
         const float nearest_px = nearest_of_surface(hits, coc_px);
@@ -226,7 +231,9 @@ private:
         }
         for (auto& direction : hits)
             for (Found& f : direction) f.found = f.found && f.coc_px < nearest_px;
-        return votes.mean();
+        HiddenGuess guess = votes.mean();
+        guess.smooth_px = completion_model.smooth_share * nearest;
+        return guess;
     }
     // Adds the surfaces met in direction k and the opposite one.
     void add_pair(HiddenTextures::Point& hidden, const Found& a, const Found& b, std::size_t k, float weight,
@@ -235,19 +242,19 @@ private:
         const float wa = b.distance_px / total, wb = a.distance_px / total;
         const float alike = likeness(a, search_.direction(k), b, search_.direction(k + kDirections / 2));
         const float closeness = 1 / a.distance_px + 1 / b.distance_px;
-        const auto colour = [&](const Found& f) {
-            return hidden.going_on(f.place(), known_.colour(f.x, f.y));
-        };
-        votes.add(wa * colour(a) + wb * colour(b), wa * a.coc_px + wb * b.coc_px,
-                  weight * (closeness * std::sqrt(closeness) * alike));
+        const float vote = weight * (closeness * std::sqrt(closeness) * alike);
+        votes.add(known_.colour(a.x, a.y), hidden.going_on(a.place()), wa * vote);
+        votes.add(known_.colour(b.x, b.y), hidden.going_on(b.place()), wb * vote);
+        votes.add(wa * a.coc_px + wb * b.coc_px, vote);
     }
     // Adds a surface met in direction k alone.
     void add_alone(HiddenTextures::Point& hidden, const Found& one, std::size_t k, float nearest_px,
                    float weight, Votes& votes) const {
         const float away = one.distance_px * one.distance_px;
         const Rgba colour = known_.going_on(one.place(), search_.direction(k), one.distance_px);
-        votes.add(hidden.going_on(one.place(), colour), one.coc_px,
-                  weight * (completion_model.alone_weight * nearest_px / (away * one.distance_px)));
+        const float vote = weight * (completion_model.alone_weight * nearest_px / (away * one.distance_px));
+        votes.add(colour, hidden.going_on(one.place()), vote);
+        votes.add(one.coc_px, vote);
     }
 
     KnownSurfaces known_;
@@ -263,13 +270,18 @@ private:
 
 constexpr int kLargestSquare = HiddenLayers::kBand;
 
-// Hidden surfaces are seen through their own blur, so pixels of one surface share the answer of the first
-// pixel in a square. Returns the side of that square, pixels.
-int shared_square(std::span<const Hidden> hidden, float shared_from_px) {
-    float least_blur_px = 1e30f;
-    for (const Hidden& h : hidden) least_blur_px = std::min(least_blur_px, std::abs(h.coc_px));
-    const float blur = least_blur_px / shared_from_px;
-    return blur < 1 ? 1 : blur < 2 ? 2 : blur < 6 ? 4 : kLargestSquare;
+// Hidden surfaces are seen through their own blur and, except their textures, as means (behind/smooth.h), so
+// pixels of one surface share the answer of the first pixel in a square. Returns the side of that square,
+// pixels.
+int shared_square(std::span<const HiddenGuess> hidden, float shared_from_px) {
+    float least_blur = 1e30f, least_mean_px = 1e30f;
+    for (const HiddenGuess& g : hidden) {
+        least_blur = std::min(least_blur, std::abs(g.seen.coc_px) / shared_from_px);
+        least_mean_px = std::min(least_mean_px, g.plain < 1 ? 0 : g.smooth_px);
+    }
+    if (least_blur >= 6) return kLargestSquare;
+    if (least_blur >= 2 || least_mean_px >= 16) return 4;
+    return least_blur >= 1 || least_mean_px >= 8 ? 2 : 1;
 }
 
 using Range = HiddenLayers::Range;
@@ -312,7 +324,7 @@ struct Band {
     Rect rows;
     float shared_from_px;
     Image<Range> ranges;  // of its pixels in `hidden`
-    std::vector<Hidden> hidden;
+    std::vector<HiddenGuess> hidden;
     Answers answers;
 
     void fill_square(const Rect& square) {
@@ -355,6 +367,7 @@ HiddenLayers fill_hidden(const LitPicture& picture, View<const float> coc,
     const int bands = (height + kLargestSquare - 1) / kLargestSquare;
     layers.bands.resize(std::size_t(bands));
     layers.ranges = {width, height};
+    HiddenGuesses guesses(static_cast<std::size_t>(bands));
     parallel_for(bands, workers, [&](int i) {
         const Rect rows =
             Rect{0, i * kLargestSquare, width, (i + 1) * kLargestSquare}.intersected(coc.rect());
@@ -367,7 +380,16 @@ HiddenLayers fill_hidden(const LitPicture& picture, View<const float> coc,
                 for (int x = 0; x < width; ++x)
                     if (const Range r = band.ranges(x, y - rows.y0); r.count > 0) emit(x, r);
             });
-        layers.bands[std::size_t(i)].assign(band.hidden.begin(), band.hidden.end());  // no more room
+        guesses[std::size_t(i)].assign(band.hidden.begin(), band.hidden.end());  // no more room
+    });
+    smooth(layers.ranges, guesses, filler.known(), workers);
+    parallel_for(bands, workers, [&](int i) {
+        std::vector<Hidden>& seen = layers.bands[std::size_t(i)];
+        seen.reserve(guesses[std::size_t(i)].size());
+        for (const HiddenGuess& g : guesses[std::size_t(i)])
+            seen.push_back(
+                {g.seen.share * (g.plain * g.seen.colour + g.texture), g.seen.coc_px, g.seen.share});
+        guesses[std::size_t(i)] = {};
     });
     return layers;
 }

@@ -157,19 +157,20 @@ const HiddenTextures::Moved& HiddenTextures::Point::moved_to_here(int tile, floa
     return moved;
 }
 
-Rgba HiddenTextures::Point::going_on(KnownSurfaces::Place shown, Rgba otherwise) {
+HiddenTextures::Point::Told HiddenTextures::Point::going_on(KnownSurfaces::Place shown) {
     const float rest_px = completion_model.texture_rest_px, least = completion_model.texture_least;
     const float in_focus = std::clamp(completion_model.texture_sharp_px - std::abs(shown.coc_px), 0.0f, 1.0f);
     const HiddenTextures& all = textures_;
-    if (all.tiles_.empty() || in_focus <= 0) return otherwise;
+    if (all.tiles_.empty() || in_focus <= 0) return {};
     const int tile = all.tile_at_(shown.x / kTile, shown.y / kTile);
-    if (tile < 0) return otherwise;
+    if (tile < 0) return {};
     const Moved& moved = moved_to_here(tile, shown.coc_px);
-    if (moved.grain <= 0 && moved.alike <= 0) return otherwise;
+    if (moved.grain <= 0 && moved.alike <= 0) return {};
     const Rgba around = all.mean(shown.x, shown.y);
     const float grain = in_focus * moved.grain;
-    if (grain > 0) otherwise = (1 - grain) * otherwise + grain * light_only(around + moved.grain_detail);
-    if (moved.alike <= 0) return otherwise;
+    Told told;
+    if (grain > 0) told = {grain * light_only(around + moved.grain_detail), grain};
+    if (moved.alike <= 0) return told;
     Rgba colour = around + moved.detail;
     const float distance = std::hypot(float(x_ - shown.x), float(y_ - shown.y));
     const int u = shown.x + moved.dx, v = shown.y + moved.dy;
@@ -177,9 +178,9 @@ Rgba HiddenTextures::Point::going_on(KnownSurfaces::Place shown, Rgba otherwise)
         const Rgba rest = all.known_.colour(shown.x, shown.y) - around - all.detail_of_pixel(u, v);
         colour += std::exp(-distance / rest_px) * rest;
     }
-    const float told =
+    const float sure =
         in_focus * std::min(1.0f, (moved.alike - least) / (completion_model.texture_most - least));
-    return (1 - told) * otherwise + told * light_only(colour);
+    return {(1 - sure) * told.colour + sure * light_only(colour), 1 - (1 - sure) * (1 - told.share)};
 }
 
 }  // namespace petzval::engine

@@ -32,8 +32,13 @@ public:
     class Point {
     public:
         Point(const HiddenTextures& textures, int x, int y) : textures_(textures), x_(x), y_(y) {}
-        // The hidden texture of the surface visible at `shown`, as far as it is known, else `otherwise`.
-        Rgba going_on(KnownSurfaces::Place shown, Rgba otherwise);
+        // The hidden texture of the surface visible at `shown`. Its colour is premultiplied by its share,
+        // 0…1. The rest is not textured.
+        struct Told {
+            Rgba colour;
+            float share = 0;
+        };
+        Told going_on(KnownSurfaces::Place shown);
 
     private:
         const Moved& moved_to_here(int tile, float coc_px);

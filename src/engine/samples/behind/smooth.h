@@ -1,0 +1,33 @@
+// Smooths colours that were estimated behind an occluder, the more so the farther behind its edge.
+#pragma once
+
+#include "petzval/workers.h"
+
+#include "engine/samples/hidden.h"
+#include "engine/samples/known_surfaces.h"
+
+#include <vector>
+
+namespace petzval::engine {
+
+// One surface behind a pixel, before neighbours have agreed on its colour: plain * seen.colour + texture.
+struct HiddenGuess {
+    Hidden seen;          // its colour is not yet premultiplied by share
+    Rgba texture;         // what a texture tells of the colour,
+    float plain = 1;      // and the rest of the colour
+    float smooth_px = 0;  // radius of the mean over neighbours; 0: none
+};
+using HiddenGuesses = std::vector<std::vector<HiddenGuess>>;  // by bands of rows, as HiddenLayers
+
+// A search from one pixel meets other things than a search from the next, so lone answers show as grain,
+// combs and rays. Replaces each colour by a mean over the same surface behind neighbouring pixels, on the
+// same side of the picture's edges; textures stay. Passes with holes ("à trous": M. Holschneider et al., "A
+// real-time algorithm for signal analysis with the help of the wavelet transform", 1989) make the cost
+// independent of the radius. Shares stay too: outlines have their own estimate.
+void smooth(const SparseRows<HiddenLayers::Range>& ranges, HiddenGuesses& guesses, const KnownSurfaces& known,
+            Workers& workers);
+
+// Farthest pixel that the mean depends on.
+constexpr int kSmoothReachPx = 1 + 2 + 4 + 8;
+
+}  // namespace petzval::engine
