@@ -101,9 +101,9 @@ Result<Place> place_of(const petzval_shot& shot, const ColourView& colour) {
     Place place;
     place.data_window = data.empty() ? Rect{0, 0, colour.width, colour.height} : data;
     place.display_window = display.empty() ? place.data_window : display;
-    if (!place.fits(colour.width, colour.height)) return refused("data_window is not of the picture's size");
     if (shot.pixel_aspect != 0) place.pixel_aspect = shot.pixel_aspect;
     if (Status ok = check(place); !ok) return ok.error();
+    if (!place.fits(colour.width, colour.height)) return refused("data_window is not of the picture's size");
     return place;
 }
 

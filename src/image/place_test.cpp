@@ -45,6 +45,10 @@ TEST(Place, SaysWhatIsWrong) {
     for (const double aspect : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(),
                                 std::numeric_limits<double>::infinity(), 1e-7, 2e6, 1e300})
         EXPECT_FALSE(check(Place::whole({0, 0, 1, 1}, aspect))) << aspect;
+    constexpr int kFar = std::numeric_limits<int>::max();
+    EXPECT_FALSE(check(Place::whole({-kFar, 0, kFar, 1})));  // its width is no int
+    EXPECT_FALSE(check(Place{{0, 0, 1, 1}, {0, kFar - 1, 1, kFar}, 1}));
+    EXPECT_TRUE(check(Place::whole({-(1 << 29), 0, 1 << 29, 1})));
     for (const float aspect : {1e-6f, 0.5f, 2.0f, 1e6f})
         EXPECT_TRUE(check(Place::whole({0, 0, 1, 1}, double(aspect)))) << aspect;
 }
