@@ -19,6 +19,11 @@
  * - What one pass records runs on queues of one family, one submission after the other: its own images serve
  *   every frame in flight, and its first barrier waits for compute work that was submitted to the queue
  * before.
+ * - In a frame its place is after temporal anti-aliasing or upscaling, before motion blur, bloom and the tone
+ *   curve: it takes light, and the discs of lamps flicker if lamps do.
+ * - On a queue for asynchronous compute, colour and depth come over by a semaphore and, where they are
+ * exclusive, a transfer of their ownership to that family; so does the result, back. Images that are
+ * concurrent need the semaphore alone.
  * - A frame is five dispatches in one command buffer, which nobody cuts: where systems end what takes a
  * device seconds, as at 4K under hundreds of lamps a pixel on a small one, a host draws at less resolution,
  * or takes a smaller largest_radius_px, so that fewer lamps reach a pixel, and looks at its own timestamps.
@@ -50,6 +55,8 @@ typedef struct petzval_pass_settings {
     /* The host's cache for the five programs, which petzval_pass_open() makes; null: none. It may be
      * destroyed afterwards. */
     VkPipelineCache pipeline_cache;
+    /* Not 0: petzval_pass_times() tells what each dispatch took. The queue's family needs timestamps. */
+    int measures_times;
 } petzval_pass_settings;
 
 /* The ideal lens until petzval_pass_set_lens(). */
@@ -85,9 +92,18 @@ typedef struct petzval_pass_frame {
     const petzval_camera* camera; /* of this frame; the sensor's width spans the picture */
     double pixel_aspect;          /* width / height of a pixel; 0: 1 */
     double largest_radius_px;     /* radii are cut there; 0: a twentieth of the width */
+    /* The frame is this part of all images, from the top left, as a host has it that draws fewer pixels when
+     * time is short; both 0: all that the pass was opened for. Radii are those of a sensor that spans it. */
+    uint32_t width, height;
 } petzval_pass_frame;
 
 PETZVAL_C_API petzval_status petzval_pass_record(petzval_pass* pass, const petzval_pass_frame* frame);
+
+/* Milliseconds of the device for measure, split, reach, gather and combine, in the last frame that was
+ * recorded into a slot. Waits for nothing: PETZVAL_INVALID_ARGUMENT while that frame has not run, or if
+ * settings.measures_times is 0. */
+PETZVAL_C_API petzval_status petzval_pass_times(const petzval_pass* pass, uint32_t slot,
+                                                double milliseconds[5]);
 
 #ifdef __cplusplus
 }

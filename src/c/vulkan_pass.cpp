@@ -6,6 +6,7 @@
 #include "device/vulkan/realtime/host_pass.h"
 #include "kernel/lenses/make_lens.h"
 
+#include <algorithm>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -53,6 +54,7 @@ Result<RealtimeSettings> settings_of(const petzval_pass_settings& given) {
         return Error{ErrorCode::InvalidArgument,
                      "settings.result_format must be R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT"};
     settings.cache = given.pipeline_cache;
+    settings.is_timed = given.measures_times != 0;
     return settings;
 }
 
@@ -90,18 +92,24 @@ petzval_status record(HostPass& host, const petzval_pass_frame& f) {
     if (f.slot >= host.settings().slots)
         return fail(PETZVAL_INVALID_ARGUMENT,
                     "frame.slot must be below frames_in_flight, " + std::to_string(host.settings().slots));
+    const RealtimeSettings& opened = host.settings();
+    const bool is_part = f.width != 0 || f.height != 0;
+    if (is_part && (f.width == 0 || f.height == 0 || f.width > opened.width || f.height > opened.height))
+        return fail(PETZVAL_INVALID_ARGUMENT, "frame.width and height must be 1 to " +
+                                                  std::to_string(opened.width) + " x " +
+                                                  std::to_string(opened.height) + ", or both 0");
+    const std::uint32_t width = is_part ? f.width : opened.width;
     const double aspect = f.pixel_aspect == 0 ? 1 : f.pixel_aspect;
-    const double most_px =
-        f.largest_radius_px == 0 ? double(host.settings().width) / 20 : f.largest_radius_px;
+    const double most_px = f.largest_radius_px == 0 ? double(width) / 20 : f.largest_radius_px;
     if (const Status ok = check(Place::whole({0, 0, 1, 1}, aspect)); !ok) return fail(ok.error());
     constexpr double kMostPx = 16384;
     if (!(most_px > 0 && most_px <= kMostPx))
         return fail(PETZVAL_INVALID_ARGUMENT, "frame.largest_radius_px must be 0 to 16384");
-    const auto optics =
-        device::vulkan::optics_of(c::camera_of(c::taken(f.camera)), int(host.settings().width),
-                                  {f.depth_scale, f.depth_bias}, most_px, aspect);
+    const auto optics = device::vulkan::optics_of(c::camera_of(c::taken(f.camera)), int(width),
+                                                  {f.depth_scale, f.depth_bias}, most_px, aspect);
     if (!optics) return fail(optics.error());
-    const RealtimeImages images{input_of(f.colour), input_of(f.depth), input_of(f.layer), f.result};
+    const RealtimeImages images{input_of(f.colour), input_of(f.depth), input_of(f.layer),
+                                f.result,           f.width,           f.height};
     host.pass().record(f.commands, f.slot, images, *optics);
     return PETZVAL_OK;
 }
@@ -153,4 +161,21 @@ petzval_status petzval_pass_record(petzval_pass* pass, const petzval_pass_frame*
     if (!pass) return missing("pass");
     if (!frame) return missing("frame");
     return guarded([&] { return record(*pass->host, c::taken(frame)); });
+}
+
+petzval_status petzval_pass_times(const petzval_pass* pass, uint32_t slot, double milliseconds[5]) {
+    if (!pass) return missing("pass");
+    if (!milliseconds) return missing("milliseconds");
+    return guarded([&] {
+        const RealtimeSettings& settings = pass->host->settings();
+        if (!settings.is_timed)
+            return fail(PETZVAL_INVALID_ARGUMENT, "the pass was opened without settings.measures_times");
+        if (slot >= settings.slots)
+            return fail(PETZVAL_INVALID_ARGUMENT,
+                        "slot must be below frames_in_flight, " + std::to_string(settings.slots));
+        const auto times = pass->host->times_ms(slot);
+        if (!times) return fail(times.error());
+        std::copy(times->begin(), times->end(), milliseconds);
+        return PETZVAL_OK;
+    });
 }

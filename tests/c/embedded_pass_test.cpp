@@ -5,7 +5,9 @@
 #include "vulkan_host.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -167,7 +169,7 @@ public:
     }
 
     // One frame: recorded, run, read.
-    Floats drawn(petzval_pass* pass, double focus_m = 2, std::uint32_t slot = 0) {
+    Floats drawn(petzval_pass* pass, double focus_m = 2, std::uint32_t slot = 0, VkExtent2D part = {}) {
         VkCommandBufferBeginInfo begin = {};
         begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
         must(vkBeginCommandBuffer(commands_, &begin), "commands");
@@ -182,6 +184,8 @@ public:
         if (has_layer_) frame.layer = {layer_.view(), VK_IMAGE_LAYOUT_GENERAL};
         frame.depth_scale = meaning_.scale, frame.depth_bias = meaning_.bias;
         frame.camera = &camera, frame.largest_radius_px = 12;
+        frame.width = part.width;
+        frame.height = part.height;
         EXPECT_EQ(petzval_pass_record(pass, &frame), PETZVAL_OK) << petzval_error_text();
         result_.download(commands_);
         must(vkEndCommandBuffer(commands_), "commands");
@@ -247,8 +251,9 @@ protected:
     static void TearDownTestSuite() { close_host(host_); }
 
     static Pass open(VkExtent2D size, PFN_vkGetInstanceProcAddr find = vkGetInstanceProcAddr,
-                     VkPipelineCache cache = VK_NULL_HANDLE) {
+                     VkPipelineCache cache = VK_NULL_HANDLE, int measures_times = 0) {
         petzval_pass_settings settings = {};
+        settings.measures_times = measures_times;
         settings.size = sizeof settings;
         settings.get_instance_proc_addr = find, settings.pipeline_cache = cache;
         settings.instance = host_.instance, settings.physical_device = host_.physical;
@@ -311,6 +316,29 @@ TEST_F(EmbeddedPass, ProgramsAreMadeOnceWithTheHostsCacheAndNamed) {
         EXPECT_NE(std::find(seen.names.begin(), seen.names.end(), step), seen.names.end()) << step;
 }
 
+// A frame is timed on the device while the host waits for it.
+TEST_F(EmbeddedPass, TimesOfDispatchesAreThoseOfTheFrame) {
+    const Pass pass = open({200, 120}, vkGetInstanceProcAddr, VK_NULL_HANDLE, 1), untimed = open(kSize);
+    Stage stage(host_, scene_of({200, 120}));
+    std::array<double, 5> ms = {};
+    EXPECT_EQ(petzval_pass_times(pass.get(), 1, ms.data()), PETZVAL_INVALID_ARGUMENT) << "nothing was drawn";
+    for (const std::uint32_t slot : {1u, 0u, 1u}) {
+        const auto begin = std::chrono::steady_clock::now();
+        stage.drawn(pass.get(), 2, slot);
+        const std::chrono::duration<double, std::milli> waited = std::chrono::steady_clock::now() - begin;
+        ASSERT_EQ(petzval_pass_times(pass.get(), slot, ms.data()), PETZVAL_OK) << petzval_error_text();
+        double all = 0;
+        for (const double one : ms) {
+            EXPECT_GT(one, 0);
+            all += one;
+        }
+        EXPECT_LT(all, waited.count());
+        EXPECT_GT(ms[3] + ms[4], ms[2]) << "gather and combine are most of a frame";
+    }
+    EXPECT_EQ(petzval_pass_times(pass.get(), 2, ms.data()), PETZVAL_INVALID_ARGUMENT) << "no such slot";
+    EXPECT_EQ(petzval_pass_times(untimed.get(), 0, ms.data()), PETZVAL_INVALID_ARGUMENT);
+}
+
 TEST_F(EmbeddedPass, TheQualityOfALookIsThatOfItsFrames) {
     const Pass pass = open(kSize);
     Stage stage(host_, scene_of(kSize));
@@ -337,6 +365,45 @@ TEST_F(EmbeddedPass, ResizedItIsAsOpenedAtThatSize) {
     }
     EXPECT_EQ(petzval_pass_resize(resized.get(), 0, 54), PETZVAL_INVALID_ARGUMENT);
     EXPECT_EQ(stage.drawn(resized.get()), expected) << "refused, it is as it was";
+}
+
+Floats cropped(const Floats& values, VkExtent2D from, VkExtent2D to) {
+    Floats part;
+    for (std::size_t y = 0; y < to.height; ++y)
+        part.insert(part.end(), values.begin() + std::ptrdiff_t(y * from.width * 4),
+                    values.begin() + std::ptrdiff_t((y * from.width + to.width) * 4));
+    return part;
+}
+
+// The rest of the images holds other light, the pass's own images hold an earlier, larger frame. Beyond the
+// border its last pixel continues; in a pass of that size its last cell, where that ends a tile.
+TEST_F(EmbeddedPass, APartOfItsSizeIsDrawnAsAPassOfThatSizeDrawsIt) {
+    constexpr VkExtent2D kWhole = {200, 160};
+    for (const VkExtent2D part : {VkExtent2D{96, 54}, VkExtent2D{128, 96}, VkExtent2D{200, 33}}) {
+        const Scene small = scene_of(part);
+        Scene whole = scene_of(kWhole);
+        for (std::size_t i = 0; i < whole.metres.size(); ++i) {
+            whole.metres[i] = 0.7f;
+            for (std::size_t k = 0; k < 4; ++k) whole.colour[4 * i + k] = 5;
+        }
+        const Pass pass = open(kWhole);
+        Stage(host_, whole).drawn(pass.get());
+        for (std::size_t y = 0; y < part.height; ++y)
+            for (std::size_t x = 0; x < part.width; ++x) {
+                const std::size_t from = y * part.width + x, to = y * kWhole.width + x;
+                whole.metres[to] = small.metres[from];
+                for (std::size_t k = 0; k < 4; ++k) whole.colour[4 * to + k] = small.colour[4 * from + k];
+            }
+        Stage stage(host_, whole);
+        const Floats made = stage.drawn(pass.get(), 2, 0, part);
+        const Floats alone = Stage(host_, small).drawn(open(part).get());
+        EXPECT_GT(difference_db(cropped(made, kWhole, part), alone), 55)
+            << part.width << " x " << part.height;
+        EXPECT_LT(difference_db(alone, small.colour), 40) << "nothing was blurred";
+    }
+    const Pass pass = open(kSize);
+    Stage stage(host_, scene_of(kSize));
+    EXPECT_EQ(stage.drawn(pass.get(), 2, 0, kSize), stage.drawn(pass.get()));
 }
 
 // Traced through its surfaces, a disc of so many pixels has another shape where pixels are smaller.

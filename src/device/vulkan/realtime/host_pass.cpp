@@ -48,6 +48,7 @@ Result<std::unique_ptr<HostPass>> HostPass::open(const Host& host, const Realtim
         return Error{ErrorCode::Unsupported, std::string(properties.deviceName) + " takes images of up to " +
                                                  std::to_string(properties.limits.maxImageDimension2D) +
                                                  " pixels a side"};
+    made->tick_ms_ = double(properties.limits.timestampPeriod) * 1e-6;
     made->opened_ = {&vk, host.device, properties.deviceName};
     auto pass = made->made(settings);
     if (!pass) return pass.error();
@@ -73,6 +74,20 @@ Status HostPass::resize(std::uint32_t width, std::uint32_t height, const kernel:
     (*pass)->set_lens(shapes_of(lens, quality));
     pass_ = std::move(*pass), settings_ = settings;
     return Done{};
+}
+
+Result<std::array<double, RealtimePass::kSteps>> HostPass::times_ms(std::uint32_t slot) const {
+    std::array<std::uint64_t, RealtimePass::kSteps> ticks = {};
+    try {
+        if (!pass_->ticks(slot, ticks))
+            return Error{ErrorCode::InvalidArgument,
+                         "slot " + std::to_string(slot) + " has no frame that has run"};
+    } catch (const Failed& failed) {
+        return failed.error;
+    }
+    std::array<double, RealtimePass::kSteps> times = {};
+    for (std::size_t i = 0; i < times.size(); ++i) times[i] = double(ticks[i]) * tick_ms_;
+    return times;
 }
 
 void HostPass::set_lens(const kernel::LensModel& lens, Quality quality) {

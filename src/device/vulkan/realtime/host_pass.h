@@ -8,6 +8,7 @@
 #include "device/vulkan/realtime/pass.h"
 #include "kernel/model/lens_model.h"
 
+#include <array>
 #include <memory>
 
 namespace petzval::device::vulkan {
@@ -38,6 +39,8 @@ public:
     // Sets the lens, from any thread; may run beside pass().record(), not beside resize().
     void set_lens(const kernel::LensModel& lens, Quality quality);
     RealtimePass& pass() { return *pass_; }
+    // Milliseconds of each step of the slot's last frame. Errors: InvalidArgument where it has not run.
+    Result<std::array<double, RealtimePass::kSteps>> times_ms(std::uint32_t slot) const;
     const RealtimeSettings& settings() const { return settings_; }
 
 private:
@@ -47,6 +50,7 @@ private:
     Functions vk_;
     Opened opened_;
     VkPhysicalDeviceMemoryProperties memory_ = {};
+    double tick_ms_ = 0;
     RealtimeSettings settings_;
     std::unique_ptr<RealtimePass> pass_;
 };

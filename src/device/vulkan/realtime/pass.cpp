@@ -2,6 +2,7 @@
 
 #include "device/vulkan/driver/failure.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <string>
@@ -102,6 +103,7 @@ void RealtimePass::make() {
     name(opened_, VK_OBJECT_TYPE_IMAGE, word_of(cells_.handle()), "petzval cells");
     name(opened_, VK_OBJECT_TYPE_IMAGE, word_of(gathered_.handle()), "petzval gathered");
     make_sets();
+    if (settings_.is_timed) make_queries();
 }
 
 void RealtimePass::make_sampler(VkFilter filter, VkSampler& sampler) const {
@@ -140,7 +142,35 @@ void RealtimePass::make_sets() {
     }
 }
 
+void RealtimePass::make_queries() {
+    VkQueryPoolCreateInfo info = {};
+    info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
+    info.queryType = VK_QUERY_TYPE_TIMESTAMP;
+    info.queryCount = (kSteps + 1) * settings_.slots;
+    check(vk_.vkCreateQueryPool(opened_.device, &info, nullptr, &queries_), opened_.name, "timestamps");
+}
+
+// place: 0 before all steps, k after the k-th.
+void RealtimePass::write_time(VkCommandBuffer commands, std::uint32_t slot, std::uint32_t place) const {
+    if (queries_)
+        vk_.vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, queries_,
+                                slot * (kSteps + 1) + place);
+}
+
+bool RealtimePass::ticks(std::uint32_t slot, std::array<std::uint64_t, kSteps>& taken) const {
+    if (!slots_[slot].is_timed) return false;
+    std::array<std::uint64_t, kSteps + 1> at = {};
+    const VkResult found =
+        vk_.vkGetQueryPoolResults(opened_.device, queries_, slot * (kSteps + 1), kSteps + 1, sizeof at,
+                                  at.data(), sizeof at[0], VK_QUERY_RESULT_64_BIT);
+    if (found == VK_NOT_READY) return false;
+    check(found, opened_.name, "timestamps");
+    for (std::size_t i = 0; i < kSteps; ++i) taken[i] = at[i + 1] - at[i];
+    return true;
+}
+
 void RealtimePass::destroy() {
+    if (queries_) vk_.vkDestroyQueryPool(opened_.device, queries_, nullptr);
     if (pool_) vk_.vkDestroyDescriptorPool(opened_.device, pool_, nullptr);
     for (VkSampler sampler : {nearest_, linear_})
         if (sampler) vk_.vkDestroySampler(opened_.device, sampler, nullptr);
@@ -277,23 +307,35 @@ void RealtimePass::begin(VkCommandBuffer commands, std::uint32_t slot, const Rea
                          const RealtimeOptics& optics) {
     take_lens(commands, slots_[slot]);
     write_given(slots_[slot], images);
-    slots_[slot].push = {std::int32_t(settings_.width),
-                         std::int32_t(settings_.height),
+    slots_[slot].push = {std::int32_t(images.width ? images.width : settings_.width),
+                         std::int32_t(images.height ? images.height : settings_.height),
                          std::int32_t(tiles_x()),
                          std::int32_t(tiles_y()),
                          optics,
                          images.layer.view ? 1u : 0u};
 }
 
-Groups RealtimePass::groups(Step step) const {
+// A frame smaller than the images has tiles around it that continue its border, as far as anything reads
+// them. So the programs need not know where the images end.
+Groups RealtimePass::groups_of(Step step, std::uint32_t width, std::uint32_t height,
+                               std::uint32_t rim_px) const {
     const auto up = [](std::uint32_t count, std::uint32_t of) { return (count + of - 1) / of; };
+    const auto with_rim = [&](std::uint32_t rim) {
+        return Groups{std::min(tiles_x(), up(width + rim, 2 * kGroup)),
+                      std::min(tiles_y(), up(height + rim, 2 * kGroup))};
+    };
+    constexpr std::uint32_t kWindow = 4 * 2 * kGroup;  // pixels: tiles that `split` measures around its own
     switch (step) {
+        case kMeasure:
+            return with_rim(rim_px + kWindow);
+        case kSplit:
+            return with_rim(rim_px);
         case kReach:
             return {up(tiles_x() * tiles_y(), 64)};
-        case kCombine:
-            return {up(settings_.width, kGroup), up(settings_.height, kGroup)};
+        case kGather:
+            return with_rim(2);  // `combine` interpolates between cells
         default:
-            return {tiles_x(), tiles_y()};
+            return {up(width, kGroup), up(height, kGroup)};
     }
 }
 
@@ -312,6 +354,16 @@ void RealtimePass::bind(VkCommandBuffer commands, const Slot& slot, Step step, b
 void RealtimePass::record(VkCommandBuffer commands, std::uint32_t slot, const RealtimeImages& images,
                           const RealtimeOptics& optics) {
     begin(commands, slot, images, optics);
+    const Push& push = slots_[slot].push;
+    // Pixels that discs, kernels of lamps and means of cells reach.
+    const auto rim_px =
+        std::uint32_t(float(engine::LampKernels::kHalf) * optics.most_px * std::max(1.0f, optics.aspect)) +
+        4 * kGroup;
+    if (queries_) {
+        vk_.vkCmdResetQueryPool(commands, queries_, slot * (kSteps + 1), kSteps + 1);
+        slots_[slot].is_timed = true;
+    }
+    write_time(commands, slot, 0);
     const bool has_labels = vk_.vkCmdBeginDebugUtilsLabelEXT && vk_.vkCmdEndDebugUtilsLabelEXT;
     for (const Step step : {kMeasure, kSplit, kReach, kGather, kCombine}) {
         const std::string said = std::string("petzval ") + kNames[step];
@@ -319,8 +371,9 @@ void RealtimePass::record(VkCommandBuffer commands, std::uint32_t slot, const Re
         label.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT, label.pLabelName = said.c_str();
         if (has_labels) vk_.vkCmdBeginDebugUtilsLabelEXT(commands, &label);
         bind(commands, slots_[slot], step, false);
-        const Groups all = groups(step);
+        const Groups all = groups_of(step, std::uint32_t(push.width), std::uint32_t(push.height), rim_px);
         vk_.vkCmdDispatch(commands, all.x, all.y, 1);
+        write_time(commands, slot, step + 1);
         if (has_labels) vk_.vkCmdEndDebugUtilsLabelEXT(commands);
     }
 }

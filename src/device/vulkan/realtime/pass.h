@@ -19,6 +19,7 @@ struct RealtimeSettings {
     std::uint32_t slots = 1;                 // frames that may be in flight
     bool has_float_result = false;           // rgba32f; else rgba16f
     bool is_cut = false;                     // frames are recorded in parts
+    bool is_timed = false;                   // by timestamps around each step
     VkPipelineCache cache = VK_NULL_HANDLE;  // for programs; outlives their making alone
 };
 
@@ -34,6 +35,8 @@ struct RealtimeImages {
     };
     Input colour, depth, layer;           // layer: null: none
     VkImageView result = VK_NULL_HANDLE;  // in VK_IMAGE_LAYOUT_GENERAL
+    // The part of them that is a frame, from the top left; 0: as large as the settings say.
+    std::uint32_t width = 0, height = 0;
 };
 
 // The programs of a pass, which serve frames of any size. Throws Failed.
@@ -78,7 +81,10 @@ public:
                const RealtimeOptics& optics);
     // Requires: settings.is_cut. `plant` leaves out a barrier, to see that it is missed.
     void record(Recording& recording, std::uint32_t slot, Step step, const Part& part, bool plant = false);
-    Groups groups(Step step) const;
+    Groups groups(Step step) const { return groups_of(step, settings_.width, settings_.height, 0); }
+    // Ticks of the device that each step of the slot's last frame took. False: it has not run yet, or nothing
+    // was recorded. Requires: settings.is_timed.
+    bool ticks(std::uint32_t slot, std::array<std::uint64_t, kSteps>& taken) const;
     const std::shared_ptr<const RealtimePrograms>& programs() const { return programs_; }
     // Lamps after step kReach: per tile, row by row, its cells with lamps (two words of four), and the first
     // and last column and row of the tiles whose lamps reach it.
@@ -97,13 +103,18 @@ private:
     struct Slot {
         std::array<VkDescriptorSet, kSteps> sets = {};
         Push push;
-        Piece lens;  // written by the host
+        Piece lens;             // written by the host
+        bool is_timed = false;  // its timestamps were recorded
     };
 
+    // Groups of a frame of this size, where cells so many pixels outside of it are read.
+    Groups groups_of(Step step, std::uint32_t width, std::uint32_t height, std::uint32_t rim_px) const;
     void make();
     void destroy();
     void make_sampler(VkFilter filter, VkSampler& sampler) const;
     void make_sets();
+    void make_queries();
+    void write_time(VkCommandBuffer commands, std::uint32_t slot, std::uint32_t place) const;
     void write_own(const Slot& slot) const;
     void write_given(const Slot& slot, const RealtimeImages& images) const;
     void write_image(VkDescriptorSet set, std::uint32_t binding, VkDescriptorType type,
@@ -125,6 +136,7 @@ private:
     VkSampler nearest_ = VK_NULL_HANDLE, linear_ = VK_NULL_HANDLE;
     std::shared_ptr<const RealtimePrograms> programs_;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
+    VkQueryPool queries_ = VK_NULL_HANDLE;  // kSteps + 1 a slot; null: not timed
     std::vector<Slot> slots_;
     std::mutex mutex_;  // of the next line
     std::shared_ptr<const engine::RealtimeLens> chosen_;
