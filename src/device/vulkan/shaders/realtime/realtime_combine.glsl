@@ -19,6 +19,7 @@ float radius_at(ivec2 pixel) {
 const int kRim = 3, kAcross = 8 + 2 * kRim;  // pixels
 shared vec4 window[kAcross * kAcross];
 shared vec2 window_discs[kAcross * kAcross];  // signed reach, at least half a pixel; light that a pixel of the disc gets
+shared uint widest_px[2];  // as bits, of pixels in the window that are blurred pixel by pixel: behind focus, in front of it
 shared float distances[kRim + 1][kRim + 1];
 float of_each(float radius_px) {
     return (1 - blurred_share(radius_px)) / max(1.0, 3.14159 * radius_px * radius_px);
@@ -33,12 +34,18 @@ float reach_of(float radius) {
 void read_window() {
     const int own = int(gl_LocalInvocationIndex);
     const ivec2 first = 8 * ivec2(gl_WorkGroupID.xy) - kRim;
+    vec2 widest = vec2(0);
+    if (own < 2) widest_px[own] = 0u;
     for (int i = own; i < kAcross * kAcross; i += 64) {
         const ivec2 there = clamp(first + ivec2(i % kAcross, i / kAcross), ivec2(0), at.size - 1);
         const float radius = radius_at(there);
         window[i] = finite_of(texelFetch(colours, there, 0));
         window_discs[i] = vec2(reach_of(radius), of_each(abs(radius)));
+        widest = max(widest, vec2(pixelwise(radius), pixelwise(-radius)));
     }
+    barrier();
+    for (int i = 0; i < 2; ++i)
+        if (widest[i] > 0) atomicMax(widest_px[i], floatBitsToUint(widest[i]));
     if (own < 16) distances[own / 4][own % 4] = length(vec2(own % 4, float(own / 4) / at.aspect));
 }
 // Offsets of pixels that a disc reaches.
@@ -135,7 +142,7 @@ void main() {
     if (is_fine) read_window();
     barrier();
     Fine own = Fine(finite_of(texelFetch(colours, pixel, 0)), vec4(0), 0, 0);
-    if (is_fine) own = fine(own.back, radius, reaches.y, reaches.z);
+    if (is_fine) own = fine(own.back, radius, uintBitsToFloat(widest_px[0]), uintBitsToFloat(widest_px[1]));
     const float hidden = blurred_share(-radius), blurred = blurred_share(abs(radius));
     vec4 near_lamps = vec4(0), back_lamps = vec4(0);
     add_all_lamps(pixel, reaches.x, near_lamps, back_lamps);
