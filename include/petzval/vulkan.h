@@ -95,6 +95,9 @@ typedef struct petzval_pass_frame {
     /* The frame is this part of all images, from the top left, as a host has it that draws fewer pixels when
      * time is short; both 0: all that the pass was opened for. Radii are those of a sensor that spans it. */
     uint32_t width, height;
+    /* What the host multiplies light by before its tone curve; 0: 1. Estimates of hidden light weigh it as it
+     * will be seen: the result for k times the light and 1 / k here is k times as bright. */
+    double exposure;
 } petzval_pass_frame;
 
 PETZVAL_C_API petzval_status petzval_pass_record(petzval_pass* pass, const petzval_pass_frame* frame);

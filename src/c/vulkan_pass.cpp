@@ -108,8 +108,11 @@ petzval_status record(HostPass& host, const petzval_pass_frame& f) {
     const auto optics = device::vulkan::optics_of(c::camera_of(c::taken(f.camera)), int(width),
                                                   {f.depth_scale, f.depth_bias}, most_px, aspect);
     if (!optics) return fail(optics.error());
-    const RealtimeImages images{input_of(f.colour), input_of(f.depth), input_of(f.layer),
-                                f.result,           f.width,           f.height};
+    if (!(f.exposure >= 0 && f.exposure <= 1e6))
+        return fail(PETZVAL_INVALID_ARGUMENT, "frame.exposure must be 0 to 1e6");
+    const float exposure = f.exposure == 0 ? 1.0f : float(f.exposure);
+    const RealtimeImages images{input_of(f.colour), input_of(f.depth), input_of(f.layer), f.result, f.width,
+                                f.height,           exposure};
     host.pass().record(f.commands, f.slot, images, *optics);
     return PETZVAL_OK;
 }

@@ -168,6 +168,8 @@ public:
         depth_.fill(depth), meaning_ = meaning;
     }
 
+    void expose(double exposure) { exposure_ = exposure; }
+
     // One frame: recorded, run, read.
     Floats drawn(petzval_pass* pass, double focus_m = 2, std::uint32_t slot = 0, VkExtent2D part = {}) {
         VkCommandBufferBeginInfo begin = {};
@@ -185,6 +187,7 @@ public:
         frame.depth_scale = meaning_.scale, frame.depth_bias = meaning_.bias;
         frame.camera = &camera, frame.largest_radius_px = 12;
         frame.width = part.width;
+        frame.exposure = exposure_;
         frame.height = part.height;
         EXPECT_EQ(petzval_pass_record(pass, &frame), PETZVAL_OK) << petzval_error_text();
         result_.download(commands_);
@@ -201,6 +204,7 @@ private:
     static constexpr VkImageUsageFlags kGiven = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     const Host& host_;
     bool has_layer_;
+    double exposure_ = 0;
     DepthMeaning meaning_ = kReversed;
     Sheet colour_, depth_, layer_, result_;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;
@@ -427,6 +431,27 @@ TEST_F(EmbeddedPass, DepthMeansTheSameReversedAndOrdinary) {
     EXPECT_LT(difference_db(reversed, scene.colour), 30) << "nothing was blurred";
     stage.place(scene.metres, kOrdinary);
     EXPECT_GT(difference_db(reversed, stage.drawn(pass.get())), 60);
+}
+
+// A dark post before a bright wall hides light that is estimated.
+TEST_F(EmbeddedPass, DarkerLightWithMoreExposureIsTheSamePicture) {
+    constexpr float kDarker = 1.0f / 64;
+    const Pass pass = open(kSize);
+    const Scene scene = scene_of(kSize);
+    Scene dark = scene;
+    for (std::size_t i = 0; i < dark.colour.size(); ++i)
+        if (i % 4 != 3) dark.colour[i] *= kDarker;
+    const auto lit = [](Floats made) {
+        for (std::size_t i = 0; i < made.size(); ++i)
+            if (i % 4 != 3) made[i] /= kDarker;
+        return made;
+    };
+    const Floats bright = Stage(host_, scene).drawn(pass.get());
+    Stage stage(host_, dark);
+    const double unexposed_db = difference_db(lit(stage.drawn(pass.get())), bright);
+    stage.expose(1 / double(kDarker));
+    EXPECT_GT(difference_db(lit(stage.drawn(pass.get())), bright), 60);
+    EXPECT_LT(unexposed_db, 55);
 }
 
 TEST_F(EmbeddedPass, ALayerIsLaidOverWhatWasDrawn) {

@@ -148,12 +148,12 @@ ShaderWords words_of(Shader shader) {
         ShaderWords{kStarFilter, buffers(4), 52},
         ShaderWords{kStarAdd, buffers(2), 52},
         ShaderWords{kDevelop, buffers(2), 52},
-        ShaderWords{kRealtimeMeasure, kOfMeasure, 36},
-        ShaderWords{kRealtimeSplit, kOfSplit, 36},
-        ShaderWords{kRealtimeReach, kOfReach, 36},
-        ShaderWords{kRealtimeGather, kOfGather, 36},
-        ShaderWords{kRealtimeCombine16, kOfCombine, 36},
-        ShaderWords{kRealtimeCombine32, kOfCombine, 36},
+        ShaderWords{kRealtimeMeasure, kOfMeasure, 40},
+        ShaderWords{kRealtimeSplit, kOfSplit, 40},
+        ShaderWords{kRealtimeReach, kOfReach, 40},
+        ShaderWords{kRealtimeGather, kOfGather, 40},
+        ShaderWords{kRealtimeCombine16, kOfCombine, 40},
+        ShaderWords{kRealtimeCombine32, kOfCombine, 40},
     };
     return kWords[std::size_t(shader)];
 }

@@ -312,7 +312,8 @@ void RealtimePass::begin(VkCommandBuffer commands, std::uint32_t slot, const Rea
                          std::int32_t(tiles_x()),
                          std::int32_t(tiles_y()),
                          optics,
-                         images.layer.view ? 1u : 0u};
+                         images.layer.view ? 1u : 0u,
+                         images.exposure};
 }
 
 // A frame smaller than the images has tiles around it that continue its border, as far as anything reads

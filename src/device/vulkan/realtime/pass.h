@@ -37,6 +37,7 @@ struct RealtimeImages {
     VkImageView result = VK_NULL_HANDLE;  // in VK_IMAGE_LAYOUT_GENERAL
     // The part of them that is a frame, from the top left; 0: as large as the settings say.
     std::uint32_t width = 0, height = 0;
+    float exposure = 1;  // estimates weigh light times this
 };
 
 // The programs of a pass, which serve frames of any size. Throws Failed.
@@ -98,8 +99,9 @@ private:
         std::int32_t width = 0, height = 0, tiles_x = 0, tiles_y = 0;
         RealtimeOptics optics;
         std::uint32_t has_layer = 0;
+        float exposure = 1;
     };
-    static_assert(sizeof(Push) == 36, "as shaders/realtime.glsl has it");
+    static_assert(sizeof(Push) == 40, "as shaders/realtime.glsl has it");
     struct Slot {
         std::array<VkDescriptorSet, kSteps> sets = {};
         Push push;

@@ -4,6 +4,7 @@ layout(push_constant) uniform Push {
     float add_px, per_depth_px;  // a signed radius is add_px + per_depth_px * depth
     float most_px, aspect;       // radii are cut there; vertical ones are `aspect` times as large
     uint has_layer;
+    float exposure;  // of the host's display
 } at;
 
 const float kMostLight = 60000;  // that cells hold

@@ -94,7 +94,7 @@ Fine fine(vec4 sharp, float radius, float back_px, float near_px) {
                 if (window_discs[there].x < 0) continue;
                 const float close = 1 / (1 + away * away);
                 const float drawn = (1 - blurred_share(window_discs[there].x)) * close * close * close;
-                const float likely = max(drawn, 1e-3) / (1 + brightness(window[there]));
+                const float likely = max(drawn, 1e-3) / (1 + at.exposure * brightness(window[there]));
                 guess += likely * window[there];
                 guess_area += likely;
                 sum.back_area = min(sum.back_area + 3 * drawn, 1.0);

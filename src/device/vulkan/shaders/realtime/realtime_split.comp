@@ -103,7 +103,7 @@ float own_radius(ivec2 pixel, vec4 light) {
 
 // Weight of this light in the mean radius over several depths. The square root of brightness keeps the sum of weights
 // within the range of half floats.
-float counts_of(vec4 light) { return clamp(sqrt(brightness(light)), 1e-3, 60.0); }
+float counts_of(vec4 light) { return clamp(sqrt(at.exposure * brightness(light)), 1e-3, 60.0); }
 
 void main() {
     const uint own = gl_LocalInvocationIndex;
