@@ -31,7 +31,7 @@ struct Host {
 };
 
 // Vulkan 1.2 and a queue; no extension, no feature.
-inline Host open_host() {
+inline Host open_host(const VkPhysicalDeviceFeatures* features_on = nullptr) {
     Host host;
     VkApplicationInfo application = {};
     application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO, application.apiVersion = VK_API_VERSION_1_2;
@@ -60,6 +60,7 @@ inline Host open_host() {
     VkDeviceCreateInfo device = {};
     device.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
     device.queueCreateInfoCount = 1, device.pQueueCreateInfos = &queue;
+    device.pEnabledFeatures = features_on;
     must(vkCreateDevice(host.physical, &device, nullptr, &host.device), "the device does not start");
     vkGetDeviceQueue(host.device, 0, 0, &host.queue);
     VkCommandPoolCreateInfo pool = {};

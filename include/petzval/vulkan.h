@@ -6,8 +6,8 @@
  * - Instance, device, queue, command buffers and images are the host's. What is ours is made by
  * petzval_pass_open() and petzval_pass_resize(), never by petzval_pass_record(): that allocates nothing on
  * the device, waits for nothing and submits nothing.
- * - The device needs no extension and no feature: Vulkan 1.2, compute, 4 storage images and 128 invocations a
- * group.
+ * - The device needs no extension, and a feature for one format of the result alone: Vulkan 1.2, compute, 4
+ * storage images and 128 invocations a group.
  * - Hold: before the pass, the host makes colour, depth and layer visible to VK_ACCESS_SHADER_READ_BIT of
  *   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, in the layouts it names, and brings the result into
  *   VK_IMAGE_LAYOUT_GENERAL, free to be written by that stage: by barriers of its own, or by a semaphore that
@@ -50,7 +50,9 @@ typedef struct petzval_pass_settings {
     VkDevice device;
     uint32_t width, height;    /* pixels, 1…16384 */
     uint32_t frames_in_flight; /* slots, 1…16; 0: 2 */
-    /* VK_FORMAT_R16G16B16A16_SFLOAT, or VK_FORMAT_R32G32B32A32_SFLOAT; VK_FORMAT_UNDEFINED: the former. */
+    /* VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT, or VK_FORMAT_B10G11R11_UFLOAT_PACK32,
+     * which drops alpha and needs the device's feature shaderStorageImageExtendedFormats enabled;
+     * VK_FORMAT_UNDEFINED: the first. */
     VkFormat result_format;
     /* The host's cache for the five programs, which petzval_pass_open() makes; null: none. It may be
      * destroyed afterwards. */

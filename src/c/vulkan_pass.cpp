@@ -30,6 +30,7 @@ using c::guarded;
 using c::missing;
 using device::vulkan::HostPass;
 using device::vulkan::RealtimeImages;
+using device::vulkan::RealtimeResult;
 using device::vulkan::RealtimeSettings;
 
 Status check_size(std::uint32_t width, std::uint32_t height) {
@@ -48,11 +49,22 @@ Result<RealtimeSettings> settings_of(const petzval_pass_settings& given) {
     settings.slots = given.frames_in_flight == 0 ? 2 : given.frames_in_flight;
     if (settings.slots > 16)
         return Error{ErrorCode::InvalidArgument, "settings.frames_in_flight must be at most 16"};
-    settings.has_float_result = given.result_format == VK_FORMAT_R32G32B32A32_SFLOAT;
-    if (!settings.has_float_result && given.result_format != VK_FORMAT_UNDEFINED &&
-        given.result_format != VK_FORMAT_R16G16B16A16_SFLOAT)
-        return Error{ErrorCode::InvalidArgument,
-                     "settings.result_format must be R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT"};
+    switch (given.result_format) {
+        case VK_FORMAT_UNDEFINED:
+        case VK_FORMAT_R16G16B16A16_SFLOAT:
+            settings.result = RealtimeResult::Half;
+            break;
+        case VK_FORMAT_R32G32B32A32_SFLOAT:
+            settings.result = RealtimeResult::Float;
+            break;
+        case VK_FORMAT_B10G11R11_UFLOAT_PACK32:
+            settings.result = RealtimeResult::Packed;
+            break;
+        default:
+            return Error{ErrorCode::InvalidArgument,
+                         "settings.result_format must be R16G16B16A16_SFLOAT, R32G32B32A32_SFLOAT or "
+                         "B10G11R11_UFLOAT_PACK32"};
+    }
     settings.cache = given.pipeline_cache;
     settings.is_timed = given.measures_times != 0;
     return settings;

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <memory>
@@ -85,7 +86,8 @@ public:
     Sheet(const Host& host, VkExtent2D size, VkFormat format, VkImageUsageFlags usage)
         : host_(host),
           size_(size),
-          floats_(std::size_t(size.width) * size.height * (format == VK_FORMAT_R32_SFLOAT ? 1 : 4)),
+          floats_(std::size_t(size.width) * size.height *
+                  (format == VK_FORMAT_R32_SFLOAT || format == VK_FORMAT_B10G11R11_UFLOAT_PACK32 ? 1 : 4)),
           image_(make_image(host, format, usage, size)),
           buffer_(make_buffer(host, floats_ * sizeof(float),
                               VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT)) {}
@@ -141,14 +143,13 @@ private:
 // Everything that a frame of this size needs of the host.
 class Stage {
 public:
-    Stage(const Host& host, const Scene& scene)
+    Stage(const Host& host, const Scene& scene, VkFormat result = VK_FORMAT_R32G32B32A32_SFLOAT)
         : host_(host),
           has_layer_(!scene.layer.empty()),
           colour_(host, scene.size, VK_FORMAT_R32G32B32A32_SFLOAT, kGiven),
           depth_(host, scene.size, VK_FORMAT_R32_SFLOAT, kGiven),
           layer_(host, scene.size, VK_FORMAT_R32G32B32A32_SFLOAT, kGiven),
-          result_(host, scene.size, VK_FORMAT_R32G32B32A32_SFLOAT,
-                  VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT) {
+          result_(host, scene.size, result, VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT) {
         VkCommandBufferAllocateInfo info = {};
         info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
         info.commandPool = host.pool, info.commandBufferCount = 1;
@@ -251,18 +252,23 @@ PFN_vkVoidFunction VKAPI_CALL seen_on_instance(VkInstance instance, const char* 
 
 class EmbeddedPass : public testing::Test {
 protected:
-    static void SetUpTestSuite() { host_ = open_host(); }
+    static void SetUpTestSuite() {
+        VkPhysicalDeviceFeatures features = {};
+        features.shaderStorageImageExtendedFormats = VK_TRUE;
+        host_ = open_host(&features);
+    }
     static void TearDownTestSuite() { close_host(host_); }
 
     static Pass open(VkExtent2D size, PFN_vkGetInstanceProcAddr find = vkGetInstanceProcAddr,
-                     VkPipelineCache cache = VK_NULL_HANDLE, int measures_times = 0) {
+                     VkPipelineCache cache = VK_NULL_HANDLE, int measures_times = 0,
+                     VkFormat result = VK_FORMAT_R32G32B32A32_SFLOAT) {
         petzval_pass_settings settings = {};
         settings.measures_times = measures_times;
         settings.size = sizeof settings;
         settings.get_instance_proc_addr = find, settings.pipeline_cache = cache;
         settings.instance = host_.instance, settings.physical_device = host_.physical;
         settings.device = host_.device, settings.width = size.width, settings.height = size.height;
-        settings.result_format = VK_FORMAT_R32G32B32A32_SFLOAT;
+        settings.result_format = result;
         petzval_pass* pass = nullptr;
         must(petzval_pass_open(&settings, &pass) == PETZVAL_OK, petzval_error_text());
         return Pass(pass);
@@ -452,6 +458,31 @@ TEST_F(EmbeddedPass, DarkerLightWithMoreExposureIsTheSamePicture) {
     stage.expose(1 / double(kDarker));
     EXPECT_GT(difference_db(lit(stage.drawn(pass.get())), bright), 60);
     EXPECT_LT(unexposed_db, 55);
+}
+
+// Floats without a sign: five bits of exponent, six of mantissa, five for blue.
+float unpacked(std::uint32_t word, int shift, int mantissa) {
+    const std::uint32_t bits = word >> shift & ((32u << mantissa) - 1);
+    const int exponent = int(bits >> mantissa);
+    const float share = float(bits & ((1u << mantissa) - 1)) / float(1 << mantissa);
+    return exponent == 0 ? std::ldexp(share, -14) : std::ldexp(1 + share, exponent - 15);
+}
+
+TEST_F(EmbeddedPass, AResultOfElevenBitsIsThatOfFloatsRounded) {
+    const Scene scene = scene_of(kSize);
+    const Pass floats = open(kSize);
+    const Pass packed =
+        open(kSize, vkGetInstanceProcAddr, VK_NULL_HANDLE, 0, VK_FORMAT_B10G11R11_UFLOAT_PACK32);
+    const Floats exact = Stage(host_, scene).drawn(floats.get());
+    const Floats words = Stage(host_, scene, VK_FORMAT_B10G11R11_UFLOAT_PACK32).drawn(packed.get());
+    ASSERT_EQ(words.size() * 4, exact.size());
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        std::uint32_t word = 0;
+        std::memcpy(&word, &words[i], sizeof word);
+        EXPECT_NEAR(unpacked(word, 0, 6), exact[4 * i], exact[4 * i] / 64 + 1e-5f) << i;
+        EXPECT_NEAR(unpacked(word, 11, 6), exact[4 * i + 1], exact[4 * i + 1] / 64 + 1e-5f) << i;
+        EXPECT_NEAR(unpacked(word, 22, 5), exact[4 * i + 2], exact[4 * i + 2] / 32 + 1e-5f) << i;
+    }
 }
 
 TEST_F(EmbeddedPass, ALayerIsLaidOverWhatWasDrawn) {

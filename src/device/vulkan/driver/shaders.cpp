@@ -102,6 +102,9 @@ constexpr std::uint32_t kRealtimeCombine16[] =
 constexpr std::uint32_t kRealtimeCombine32[] =
 #include "realtime_combine_32.comp.inc"
     ;
+constexpr std::uint32_t kRealtimeCombine11[] =
+#include "realtime_combine_11.comp.inc"
+    ;
 
 constexpr VkDescriptorType kSampled = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                            kStored = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
@@ -154,6 +157,7 @@ ShaderWords words_of(Shader shader) {
         ShaderWords{kRealtimeGather, kOfGather, 40},
         ShaderWords{kRealtimeCombine16, kOfCombine, 40},
         ShaderWords{kRealtimeCombine32, kOfCombine, 40},
+        ShaderWords{kRealtimeCombine11, kOfCombine, 40},
     };
     return kWords[std::size_t(shader)];
 }

@@ -40,7 +40,8 @@ enum class Shader {
     RealtimeReach,
     RealtimeGather,
     RealtimeCombine16,  // its result is rgba16f
-    RealtimeCombine32   // rgba32f
+    RealtimeCombine32,  // rgba32f
+    RealtimeCombine11   // r11f_g11f_b10f
 };
 
 struct ShaderWords {

@@ -48,6 +48,14 @@ Result<std::unique_ptr<HostPass>> HostPass::open(const Host& host, const Realtim
         return Error{ErrorCode::Unsupported, std::string(properties.deviceName) + " takes images of up to " +
                                                  std::to_string(properties.limits.maxImageDimension2D) +
                                                  " pixels a side"};
+    if (settings.result == RealtimeResult::Packed) {
+        VkFormatProperties packed = {};
+        vk.vkGetPhysicalDeviceFormatProperties(host.physical_device, VK_FORMAT_B10G11R11_UFLOAT_PACK32,
+                                               &packed);
+        if ((packed.optimalTilingFeatures & VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT) == 0)
+            return Error{ErrorCode::Unsupported, std::string(properties.deviceName) +
+                                                     " has no storage images of B10G11R11_UFLOAT_PACK32"};
+    }
     made->tick_ms_ = double(properties.limits.timestampPeriod) * 1e-6;
     made->opened_ = {&vk, host.device, properties.deviceName};
     auto pass = made->made(settings);

@@ -18,10 +18,11 @@ constexpr std::uint32_t kGroup = 8;   // invocations along a side
 constexpr std::uint32_t kLevels = 4;  // of cells
 constexpr std::array kNames{"measure", "split", "reach", "gather", "combine"};
 
-Shader shader_of(std::size_t step, bool has_float_result) {
+Shader shader_of(std::size_t step, RealtimeResult result) {
+    constexpr std::array kCombine{Shader::RealtimeCombine16, Shader::RealtimeCombine32,
+                                  Shader::RealtimeCombine11};
     const std::array shaders{Shader::RealtimeMeasure, Shader::RealtimeSplit, Shader::RealtimeReach,
-                             Shader::RealtimeGather,
-                             has_float_result ? Shader::RealtimeCombine32 : Shader::RealtimeCombine16};
+                             Shader::RealtimeGather, kCombine[std::size_t(result)]};
     return shaders[step];
 }
 
@@ -46,7 +47,7 @@ RealtimePrograms::RealtimePrograms(Opened opened, const RealtimeSettings& settin
     try {
         for (std::size_t step = 0; step < programs_.size(); ++step) {
             programs_[step] =
-                make_program(opened_, shader_of(step, settings.has_float_result), 0, flags, settings.cache);
+                make_program(opened_, shader_of(step, settings.result), 0, flags, settings.cache);
             name(opened_, VK_OBJECT_TYPE_PIPELINE, word_of(programs_[step].pipeline),
                  std::string("petzval ") + kNames[step]);
         }
@@ -121,7 +122,7 @@ void RealtimePass::make_sets() {
     const std::uint32_t slots = settings_.slots;
     std::array<VkDescriptorPoolSize, 3> sizes{{{kSampled, 0}, {kStored, 0}, {kBuffer, 0}}};
     for (std::size_t step = 0; step < kSteps; ++step)
-        for (const VkDescriptorType type : words_of(shader_of(step, settings_.has_float_result)).bindings)
+        for (const VkDescriptorType type : words_of(shader_of(step, settings_.result)).bindings)
             for (VkDescriptorPoolSize& size : sizes)
                 if (size.type == type) size.descriptorCount += slots;
     VkDescriptorPoolCreateInfo pool = {};
@@ -243,7 +244,7 @@ void RealtimePass::set_lens(std::shared_ptr<const engine::RealtimeLens> lens) {
 std::uint64_t RealtimePass::least_bytes(Step step) const {
     const std::uint64_t pixels = std::uint64_t(settings_.width) * settings_.height,
                         tiles = std::uint64_t(tiles_x()) * tiles_y(), cells = tiles * kGroup * kGroup;
-    const std::uint64_t colour = settings_.has_float_result ? 16 : 8, depth = 4, texel = 8;
+    const std::uint64_t colour = settings_.result == RealtimeResult::Float ? 16 : 8, depth = 4, texel = 8;
     // Four layers of the finest level; a quarter, a sixteenth and a 64th of them of the others.
     const std::uint64_t all_cells = cells * 4 * texel * 85 / 64, gathered = cells * 3 * texel;
     const std::uint64_t radii = cells * texel;

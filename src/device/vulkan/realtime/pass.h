@@ -14,10 +14,12 @@
 
 namespace petzval::device::vulkan {
 
+enum class RealtimeResult { Half, Float, Packed };  // rgba16f, rgba32f, r11f_g11f_b10f
+
 struct RealtimeSettings {
-    std::uint32_t width = 0, height = 0;     // pixels
-    std::uint32_t slots = 1;                 // frames that may be in flight
-    bool has_float_result = false;           // rgba32f; else rgba16f
+    std::uint32_t width = 0, height = 0;  // pixels
+    std::uint32_t slots = 1;              // frames that may be in flight
+    RealtimeResult result = RealtimeResult::Half;
     bool is_cut = false;                     // frames are recorded in parts
     bool is_timed = false;                   // by timestamps around each step
     VkPipelineCache cache = VK_NULL_HANDLE;  // for programs; outlives their making alone

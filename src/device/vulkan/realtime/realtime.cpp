@@ -56,7 +56,11 @@ public:
           width_(width),
           height_(height),
           pass_(context.opened(), context.candidate().memory,
-                {.width = width, .height = height, .slots = 1, .has_float_result = true, .is_cut = true}) {
+                {.width = width,
+                 .height = height,
+                 .slots = 1,
+                 .result = RealtimeResult::Float,
+                 .is_cut = true}) {
         constexpr VkImageUsageFlags kInput = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
         colour_ = made(VK_FORMAT_R32G32B32A32_SFLOAT, kInput);
         radii_ = made(VK_FORMAT_R32_SFLOAT, kInput);

@@ -1,0 +1,5 @@
+// The result as r11f_g11f_b10f.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#define RESULT r11f_g11f_b10f
+#include "realtime_combine.glsl"
