@@ -98,7 +98,8 @@ public:
         // A draft looks at half as much.
         const bool draft = input.options.quality == Quality::Draft;
         const UnmixRule unmix = draft ? UnmixRule{2, false} : UnmixRule{};
-        const FillRule fill = draft ? FillRule{1.5f, 8, 4, false, 6} : FillRule{};
+        FillRule fill = draft ? FillRule{1.5f, 4, 8, false, 6} : FillRule{};
+        if (input.options.quality == Quality::Final) fill.first_directions = fill.directions;
         mixtures_ =
             unmix_silhouettes(picture, input.samples.coc_px, connected, *input.services.workers, unmix);
         if (input.options.fill != Fill::Off)

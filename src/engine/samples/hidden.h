@@ -96,9 +96,10 @@ void unmix_nearer(Mixtures& mixtures, const LitPicture& picture, const HiddenLay
 // the silhouette.
 struct FillRule {
     float shared_from_px = completion_model.shared_from_px;
-    int directions = 16;          // that are looked in: 16, 8 or 4,
-    int blurred_directions = 16;  // or no more than these where all that is met in them is blurred
-    bool textures = true;         // what is in focus goes on as a texture, too
+    // Directions that are searched first, of 16, 8 or 4, and all that are searched if no surface was met
+    // there.
+    int first_directions = 8, directions = 16;
+    bool textures = true;  // what is in focus goes on as a texture, too
     // Edges of the picture continue straight on surfaces that are blurred by no more than this.
     float edges_to_px = std::numeric_limits<float>::infinity();
 };

@@ -15,6 +15,8 @@
 namespace petzval::engine {
 namespace {
 
+// All directions are searched so close to a hidden outline: the share of its surface depends on them.
+constexpr float kCloseToOutlinePx = 4;
 constexpr std::size_t kSurfaces = HiddenLayers::kMost;
 
 float square(Rgba c) { return c.r * c.r + c.g * c.g + c.b * c.b; }
@@ -57,7 +59,7 @@ public:
           mixtures_(mixtures),
           search_(known_, coc, mixtures, largest, farthest, workers),
           every_(std::size_t(kDirections / rule.directions)),
-          every_blurred_(std::size_t(kDirections / rule.blurred_directions)) {}
+          every_first_(std::size_t(kDirections / rule.first_directions)) {}
 
     const KnownSurfaces& known() const { return known_; }
     bool may_hide(int x, int y) const { return search_.may_hide(x, y); }
@@ -67,21 +69,19 @@ public:
         const Mixture* m = mixtures_.at(x, y);
         const float own = m ? m->near_coc_px : coc_(x, y);
         Hits hits;
-        const bool outlined = outlines_.near({x, y});
+        const float outline_px = outlines_.distance_px({x, y});
         const SurfaceSearch::Start start{x, y, own, slope_at(coc_, connected_, x, y),
-                                         outlined ? completion_model.outline_search_px : 0};
-        bool reached = false, sharp = false;
+                                         std::isfinite(outline_px) ? completion_model.outline_search_px : 0};
+        bool reached = false;
         const auto look = [&](std::size_t k) {
             hits[k] = search_.look(start, k);
-            for (const Found& f : hits[k]) {
+            for (const Found& f : hits[k])
                 reached = reached || (f.found && f.distance_px <= SurfaceSearch::reach_px(own, f.coc_px));
-                sharp = sharp || (f.found && std::abs(f.coc_px) < completion_model.texture_sharp_px);
-            }
         };
-        for (std::size_t k = 0; k < kDirections; k += every_blurred_) look(k);
-        if (sharp || !reached)
+        for (std::size_t k = 0; k < kDirections; k += every_first_) look(k);
+        if (!reached || outline_px < kCloseToOutlinePx)
             for (std::size_t k = 0; k < kDirections; k += every_)
-                if (k % every_blurred_ != 0) look(k);
+                if (k % every_first_ != 0) look(k);
         if (reached) stack(x, y, own, hits, hidden);
     }
 
@@ -264,8 +264,8 @@ private:
     View<const unsigned char> connected_;
     const Mixtures& mixtures_;
     SurfaceSearch search_;
-    // Every how many directions are searched; the second number applies where no sharp surface is met.
-    std::size_t every_, every_blurred_;
+    // Every how many directions are searched, and are searched first.
+    std::size_t every_, every_first_;
 };
 
 constexpr int kLargestSquare = HiddenLayers::kBand;

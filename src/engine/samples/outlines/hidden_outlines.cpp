@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace petzval::engine {
@@ -255,14 +256,17 @@ void HiddenOutlines::sort_into_cells(int width, int height) {
     }
 }
 
-bool HiddenOutlines::near(PixelAt hidden) const {
-    if (outlines_.empty()) return false;
+float HiddenOutlines::distance_px(PixelAt hidden) const {
+    float least = std::numeric_limits<float>::infinity();
+    if (outlines_.empty()) return least;
     for (const int i : near_[std::size_t(hidden.y / kCell * columns_ + hidden.x / kCell)]) {
         const Outline& o = outlines_[std::size_t(i)];
         if (std::max(std::abs(hidden.x - o.middle.x), std::abs(hidden.y - o.middle.y)) <= o.around_px)
-            return true;
+            least = std::min(
+                least,
+                std::abs(o.arc.right_of({float(hidden.x - o.at.x) + 0.5f, float(hidden.y - o.at.y) + 0.5f})));
     }
-    return false;
+    return least;
 }
 
 HiddenOutlines::Open HiddenOutlines::open(PixelAt shown, PixelAt hidden, float coc_px) const {

@@ -32,8 +32,9 @@ public:
     };
     Open open(PixelAt shown, PixelAt hidden, float coc_px) const;
 
-    // True if an outline may be hidden near that point.
-    bool near(PixelAt hidden) const;
+    // About how far that point is from the course of an outline that may be hidden near it; infinite if none
+    // is.
+    float distance_px(PixelAt hidden) const;
 
     struct Outline {
         PixelAt at;  // places count from this corner of pixels: that of (x, y) that is nearest to (0, 0)
