@@ -175,8 +175,8 @@ private:
         if (m->near_share > kLeastShare || m->lights_near)
             emit(sample(m->near_colour, m->near_coc_px, m->near_share));
         const auto behind = hidden_.at(x, y);
+        if (m->shows_far || behind.empty()) emit(sample(m->far_colour, m->far_coc_px, 1));
         for (const Hidden& h : behind) emit(sample(h.colour, h.coc_px, h.share));
-        if (behind.empty()) emit(sample(m->far_colour, m->far_coc_px, 1));
         if (m->far_light != Rgba{}) emit({unhidden_light(*m), m->lamp_coc_px, m->lamp_coc_px});
     }
 

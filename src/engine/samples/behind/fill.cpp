@@ -67,7 +67,7 @@ public:
     // Appends the surfaces behind (x, y), if a lens ray that passes the occluder reaches any of them.
     void fill(int x, int y, std::vector<HiddenGuess>& hidden) const {
         const Mixture* m = mixtures_.at(x, y);
-        const float own = m ? m->near_coc_px : coc_(x, y);
+        const float own = m && !m->shows_far ? m->near_coc_px : coc_(x, y);
         Hits hits;
         const float outline_px = outlines_.distance_px({x, y});
         const SurfaceSearch::Start start{x, y, own, slope_at(coc_, connected_, x, y),
@@ -332,7 +332,9 @@ struct Band {
         for (int y = square.y0; y < square.y1; ++y)
             for (int x = square.x0; x < square.x1; ++x) {
                 const Mixture* m = mixtures.at(x, y);
-                if (m ? m->shows_far : !filler.may_hide(x, y)) continue;
+                // (A silhouette's farther surface hides another one if it lies in front of focus itself.)
+                if (m && m->shows_far && m->far_coc_px > -completion_model.apart_px) continue;
+                if ((!m || m->shows_far) && !filler.may_hide(x, y)) continue;
                 Range& own = ranges(x, y - rows.y0);
                 if (const Range* known = answers.find(x, y, coc(x, y))) {
                     own = *known;

@@ -98,7 +98,8 @@ std::array<Found, kHits> SurfaceSearch::look(const Start& from, std::size_t k) c
         const float c = block.farthest > behind ? start[step->offset] : behind;
         if (c > behind && c > own + step->t * own_per_px + completion_model.step_px) {
             hits[n++] = {true, int(u), int(v), c, step->t};
-            longest = std::min(longest, completion_model.search_factor * step->t);
+            // (A surface in front of focus hides another one, past whose edges the lens looks in turn.)
+            longest = std::min(longest, std::max(completion_model.search_factor * step->t, step->t - c));
             behind = c + 2 * completion_model.step_px;
             if (n == kHits || behind >= farthest_) break;
         }

@@ -1,4 +1,3 @@
-// A box before a floor, and a slanted bar in front that hides a part of the box's upright edge.
 #include "base/parallel.h"
 #include "engine/samples/hidden.h"
 
@@ -7,6 +6,7 @@
 namespace petzval::engine {
 namespace {
 
+// A box before a floor, and a slanted bar in front that hides a part of the box's upright edge.
 constexpr int kWidth = 128, kHeight = 128, kBox = 64, kBarWidth = 24;
 constexpr float kBarPx = -4, kBoxPx = 0, kFloorPx = 6;
 const Rgba kBoxColour{0.6f, 0.6f, 0.6f, 1}, kFloorColour{0.1f, 0.1f, 0.1f, 1};
@@ -14,11 +14,11 @@ const Rgba kBoxColour{0.6f, 0.6f, 0.6f, 1}, kFloorColour{0.1f, 0.1f, 0.1f, 1};
 int bar_begins(int y) { return kBox + 4 - (y - 40) / 2; }
 bool in_bar(int x, int y) { return x >= bar_begins(y) && x < bar_begins(y) + kBarWidth; }
 
-HiddenLayers filled(const Plane& coc, const Picture& colour) {
+HiddenLayers filled(const Plane& coc, const Picture& colour, float nearest_px = kBarPx) {
     const LitPicture picture{colour, {}};
     const auto connected = connections(coc, one_thread());
     const Mixtures mixed = unmix_silhouettes(picture, coc, connected, one_thread());
-    return fill_hidden(picture, coc, connected, mixed, kBarPx, kFloorPx, {}, one_thread());
+    return fill_hidden(picture, coc, connected, mixed, nearest_px, kFloorPx, {}, one_thread());
 }
 
 TEST(SurfaceSearch, ASurfaceIsFoundAcrossABarThatIsWiderThanTheBlur) {
@@ -40,6 +40,27 @@ TEST(SurfaceSearch, ASurfaceIsFoundAcrossABarThatIsWiderThanTheBlur) {
         EXPECT_NEAR(behind.g, (x < kBox ? kBoxColour : kFloorColour).g, 0.03f) << x << ", " << y;
     }
     EXPECT_LT(bar_begins(95) + kBarWidth - 5, kBox - 2) << "some of them show the box";
+}
+
+TEST(SurfaceSearch, AWallIsFoundBehindAWireThatMeetsAPost) {
+    // The wire is nearer to the lens than focus: it hides the wall, and the post hides the wire.
+    constexpr int kPost = 64, kWire = 58, kWireWidth = 12;
+    constexpr float kPostPx = -30, kWirePx = -14, kWallPx = 0.5f;
+    Picture colour(kWidth, kHeight, kBoxColour);
+    Plane coc(kWidth, kHeight, kWallPx);
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+            const bool post = x < kPost, wire = !post && y >= kWire && y < kWire + kWireWidth;
+            if (post || wire) colour(x, y) = kFloorColour, coc(x, y) = post ? kPostPx : kWirePx;
+        }
+    const HiddenLayers hidden = filled(coc, colour, kPostPx);
+    for (int y = kWire; y < kWire + kWireWidth; ++y)
+        for (int x = kPost - 6; x <= kPost; ++x) {
+            const auto behind = hidden.at(x, y);
+            ASSERT_FALSE(behind.empty()) << x << ", " << y;
+            EXPECT_NEAR(behind.back().coc_px, kWallPx, 0.1f) << x << ", " << y;
+            EXPECT_NEAR(behind.back().colour.g, kBoxColour.g, 0.05f) << x << ", " << y;
+        }
 }
 
 }  // namespace
