@@ -220,7 +220,7 @@ TEST(OutputFile, AFullDiskLeavesTheOldFileAndNothingElse) {
     const DeepPicture deep(1, 1, {0, 9999}, std::vector<DeepSample>(9999, {{1, 2, 3, 1}, 1, 2}));
     const Plane plane(300, 300, 1);
     PngPixels png{300, 300, 3, 16, {}};
-    for (int i = 0; i < 300 * 300 * 3; ++i) png.samples.push_back(std::uint16_t(i * 40503));
+    for (unsigned i = 0; i < 300 * 300 * 3; ++i) png.samples.push_back(std::uint16_t(i * 40503));
     for (const rlim_t bytes : {1u, 100u, 1200u}) {
         const FullDisk full(bytes);
         const std::array failures{
