@@ -28,9 +28,9 @@ def fuzzed(folder, corpus, seconds):
     for path in (found, failing):
         path.mkdir(parents=True, exist_ok=True)
     before = set(failing.glob(f"{corpus}-*"))
-    command = [folder / f"fuzz_{target_of(corpus)}", f"-max_total_time={seconds}", "-max_len=16384", "-timeout=120",
-               "-rss_limit_mb=2048", "-print_final_stats=1", f"-artifact_prefix={failing}/{corpus}-", found,
-               CORPORA / corpus]
+    command = [folder / f"fuzz_{target_of(corpus)}", f"-max_total_time={seconds}", "-max_len=16384", "-timeout=600",
+               "-report_slow_units=600", "-rss_limit_mb=2048", "-print_final_stats=1",
+               f"-artifact_prefix={failing}/{corpus}-", found, CORPORA / corpus]
     print("+ " + " ".join(map(str, command)), file=sys.stderr, flush=True)
     done = subprocess.run(command, preexec_fn=lambda: os.nice(10), stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                           env={**os.environ, "PETZVAL_KERNEL_CACHE": "off", "ASAN_OPTIONS": "quarantine_size_mb=64"},
