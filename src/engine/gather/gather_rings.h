@@ -43,7 +43,7 @@ public:
     int skirt_level(int ring) const { return skirt_levels_[std::size_t(ring)]; }  // 0: all is core
     int levels() const;                                                           // skirts included
 
-    // Light of other sizes, in front of focus or behind it, is no part of a level.
+    // Light of other sizes, in front of focus or behind it, is not a part of a level.
     struct Sizes {
         float above_px = 0, below_px = 0;
         bool contains(float coc_px) const {

@@ -14,7 +14,7 @@ namespace {
 
 Rgba with_light(Rgba light, float alpha) { return {light.r, light.g, light.b, alpha}; }
 
-// Share of the light at this place and radius that is no bright point.
+// Share of the light at this place and radius that is not a bright point.
 float share_that_stays(const HighlightSplit& split, int x, int y, float coc_px, Rgba light) {
     const float brightness = luminance(light);
     if (std::abs(coc_px) <= laws::kWithinPixelPx || brightness <= 0 || split.is_dim(brightness, light.a))

@@ -44,7 +44,7 @@ public:
 
 private:
     struct Taken {
-        float stays;         // share of the pixel's light, or the sample's, that is no bright point
+        float stays;         // share of the pixel's light, or the sample's, that is not a bright point
         float seen;          // share of the sample that the pixel shows
         std::size_t sample;  // of a picture with hidden layers: that from which it was taken
     };

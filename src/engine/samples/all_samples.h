@@ -28,7 +28,7 @@ inline double finite_depth(double depth_m) {
 // A picture with depth, plate and other stated inputs; all of one size.
 struct StatedPicture {
     View<const Rgba> colour;              // finite
-    View<const float> depth;              // of all samples, as `meaning` has it
+    View<const float> depth;              // depth of each sample, in the meaning of `meaning`
     const DeepPicture* deep = nullptr;    // all samples: replaces colour and depth; may be null or empty
     const DeepPicture* behind = nullptr;  // hidden layers; may be null or empty
     StatedDepth meaning;

@@ -31,7 +31,7 @@ CocSample sample(Rgba colour, float coc_px, float share) {
 // Resizes samples that will be overwritten; keeps their memory.
 void restart(CocSamples& samples, int width, int height, std::size_t count) {
     samples.width = width;
-    samples.first.clear(), samples.samples.clear();  // nothing is to be kept
+    samples.first.clear(), samples.samples.clear();  // the old contents are not copied
     samples.first.resize(std::size_t(width) * std::size_t(height) + 1);
     samples.samples.resize(count);
 }
@@ -78,7 +78,7 @@ CocSamples deep_completed(const EngineView& input) {
         const float open = 1 - input.samples.colour.row(int(i) / stated.width)[int(i) % stated.width].a;
         if (distance.pixels()[i] == 0 || looks_past) {
             all.samples.push_back(emptiness_behind_everything());
-        } else if (open > 1e-6f) {  // too little to tell others of it
+        } else if (open > 1e-6f) {  // a smaller rest gives no reliable colour
             all.samples.push_back(emptiness_behind_everything());
             all.samples.back().empty = open;
         }
@@ -95,7 +95,7 @@ public:
                 const CocSamples* back = nullptr)
         : input_(input), back_(back) {
         const LitPicture picture{input.samples.colour, dim};
-        // A draft looks at half as much.
+        // A draft searches half as much.
         const bool draft = input.options.quality == Quality::Draft;
         const UnmixRule unmix = draft ? UnmixRule{2, false} : UnmixRule{};
         FillRule fill = draft ? FillRule{1.5f, 4, 8, false, 6} : FillRule{};
@@ -185,10 +185,11 @@ private:
     Mixtures mixtures_;
     HiddenLayers hidden_;
     HiddenLamps lamps_;
-    std::vector<std::size_t> first_of_row_;  // sample of each row; and the end
+    // Number of the first sample of each row, then the number of all.
+    std::vector<std::size_t> first_of_row_;
 };
 
-// Samples that are all there.
+// Samples that the input states completely; nothing is estimated.
 class GivenSamples final : public CompletedPicture::Parts {
 public:
     explicit GivenSamples(CocSamples all) : all_(std::move(all)) {

@@ -18,7 +18,7 @@ namespace petzval::engine {
 // is completed, and the surfaces in front of it are placed before it.
 class CompletedPicture {
 public:
-    // `input` outlives this.
+    // `input` must outlive this object.
     CompletedPicture(const EngineView& input, View<const unsigned char> connected, const Dim& dim);
     // Writes rows y0…y1-1; from any thread. Replaces the contents of `into` and keeps its memory.
     void rows(int y0, int y1, CocSamples& into) const { parts_->rows(y0, y1, into); }

@@ -15,14 +15,14 @@ struct CompletionModel {
 #undef PETZVAL_NUMBER
 };
 
-// The program estimates with these. Only the bench assigns them, before it draws anything.
+// The numbers that the program uses. Only the bench changes them, before it draws anything.
 inline CompletionModel completion_model;
 
 struct CompletionNumber {
     const char* name;
     float CompletionModel::*value;
-    float least, most;  // between these the estimate works as described
-    float off;          // NaN if the estimate cannot do without it
+    float least, most;  // range in which the estimate works as described
+    float off;          // value that switches the rule off; NaN if the estimate needs the rule
     const char *unit, *reason;
 };
 

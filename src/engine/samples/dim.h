@@ -8,11 +8,11 @@ namespace petzval::engine {
 
 // The light that lamps add to a picture's pixels (engine/lights: HighlightSplit::dim).
 struct Dim {
-    // Light of pixel (x, y) without that. Empty: there are no lamps.
+    // Light of pixel (x, y) without the light of lamps. Empty if the picture has no lamps.
     std::function<Rgba(int x, int y, Rgba light)> of;
     // Light of luminance up to least * its coverage is unchanged: a quick test that most pixels pass.
     float least = 0;
-    float white = 0;  // scene-linear luminance that counts as bright; 0: none does
+    float white = 0;  // scene-linear luminance from which light counts as bright; 0: no light does
 
     explicit operator bool() const { return bool(of); }
     Rgba operator()(int x, int y, Rgba light) const {

@@ -23,7 +23,7 @@ namespace petzval::engine {
 // A picture, and its surfaces without the light of lamps.
 struct LitPicture {
     View<const Rgba> colour;
-    Dim dim_of;  // empty: it shows no lamps
+    Dim dim_of;  // light of the picture without lamps; empty if it has none
     Rgba dim(int x, int y) const { return dim_of ? dim_of(x, y, colour(x, y)) : colour(x, y); }
 };
 
@@ -31,16 +31,17 @@ struct LitPicture {
 // depth is that of one point:
 //     colour = near_colour + (1 - near_share) far_colour + far_light.
 struct Mixture {
-    bool shows_far = false;    // that point lies on the farther surface
-    bool lights_near = false;  // lamps light the nearer surface
+    bool shows_far = false;    // true if the depth is that of the farther surface
+    bool lights_near = false;  // true if lamps light the nearer surface
     float near_share = 0;      // 0…1: coverage of the nearer surface
-    Rgba near_colour;          // premultiplied by near_share; with light of lamps on it
-    Rgba far_colour;           // of the farther surface, as if it filled the pixel; without lamps
-    Rgba far_light;            // of lamps behind the nearer surface, as the pixel shows it; a is 0
+    Rgba near_colour;          // premultiplied by near_share; includes the light of lamps on this surface
+    Rgba far_colour;           // colour of the farther surface if it filled the pixel; without lamps
+    Rgba far_light;            // light of lamps behind the nearer surface, as visible in the pixel; a is 0
     float near_coc_px = 0, far_coc_px = 0, lamp_coc_px = 0;
-    float lamps_behind = 0;  // 0…1: how much of the light of lamps here is of lamps behind the nearer surface
-    // Known of the nearer surface: its colour where it fills pixels, the variance of that (mean of the
-    // channels), and the share expected from the silhouette's shape.
+    // 0…1: fraction of the pixel's lamp light that comes from lamps behind the nearer surface.
+    float lamps_behind = 0;
+    // Facts about the nearer surface: its colour where it fills pixels, the variance of that colour (mean
+    // of the channels), and the share that the silhouette's shape suggests.
     Rgba near_clean;
     float near_variance = 0, share_by_shape = 0;
 };
@@ -49,8 +50,9 @@ using Mixtures = SparseRows<Mixture>;
 
 // Extent of the search that separates a silhouette's pixel.
 struct UnmixRule {
-    int clean_within_px = int(completion_model.clean_within_px);  // clean colours are looked for
-    bool along_outline = true;  // the share that its shape tells is a mean along the outline
+    // Largest distance of clean colours that are used.
+    int clean_within_px = int(completion_model.clean_within_px);
+    bool along_outline = true;  // average the share of the shape along the outline
 };
 
 // Finds every pixel that touches a silhouette (also diagonally), and separates those that show the farther
@@ -72,9 +74,9 @@ struct Hidden {
 
 // Hidden samples of every pixel, nearest first; pixels may share theirs.
 struct HiddenLayers {
-    static constexpr int kBand = SparseRows<Hidden>::kBand;  // rows
-    static constexpr int kMost = 3;                          // samples of a pixel
-    // In the samples of the pixel's band.
+    static constexpr int kBand = SparseRows<Hidden>::kBand;  // rows in a band
+    static constexpr int kMost = 3;                          // most hidden samples of a pixel
+    // A pixel's samples, as a range in the samples of its band.
     struct Range {
         std::uint32_t begin : 30, count : 2;
     };
@@ -91,16 +93,16 @@ struct HiddenLayers {
 void unmix_nearer(Mixtures& mixtures, const LitPicture& picture, const HiddenLayers& hidden,
                   Workers& workers);
 
-// Neighbours share what was found where it is blurred by shared_from_px or more: squares of 2, of 4 at twice,
-// of 8 at six times that. Where nothing was found nothing is shared: that is the pixel's own distance from
-// the silhouette.
+// Pixels of a square share the surfaces found for one of them, if these are blurred by shared_from_px or
+// more: squares of 2 x 2, of 4 at twice that radius, of 8 at six times. An empty answer is not shared,
+// because it depends on the pixel's distance from the silhouette.
 struct FillRule {
     float shared_from_px = completion_model.shared_from_px;
     // Directions that are searched first, of 16, 8 or 4, and all that are searched if no surface was met
     // there.
     int first_directions = 8, directions = 16;
-    bool textures = true;  // what is in focus goes on as a texture, too
-    // Edges of the picture continue straight on surfaces that are blurred by no more than this.
+    bool textures = true;  // continue the texture of surfaces in focus
+    // Edges of the picture continue straight on surfaces whose blur radius is at most this.
     float edges_to_px = std::numeric_limits<float>::infinity();
 };
 

@@ -109,7 +109,7 @@ Rgba KnownSurfaces::seen_through_blur(Place at, Direction outwards, float distan
 // are equally common and cut anywhere. Pixels beyond a continuing edge do not count.
 Rgba KnownSurfaces::shown(Place from, Direction outwards, float distance_px, const Mean& mean,
                           Rgba otherwise) const {
-    constexpr int kParts = 8;  // as likely each
+    constexpr int kParts = 8;  // parts of equal probability
     Rgba sum;
     float total = 0;
     const CutEdges::Point hidden = behind(from, outwards, distance_px);

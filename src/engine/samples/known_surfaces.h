@@ -19,7 +19,7 @@ inline bool one_surface(float coc_a_px, float coc_b_px) {
 }
 
 struct Direction {
-    float x, y;  // of length 1
+    float x, y;  // a vector of length 1
 };
 
 class KnownSurfaces {
@@ -46,9 +46,9 @@ public:
         int x, y;
         float coc_px;
     };
-    // The surface as it continues from there against `outwards`, hidden, over `distance_px`. Bright light
-    // falls to the light of the surface beyond it (from here, outwards), the more so the smaller it is
-    // compared with the distance. So a light fades as it slips behind an edge.
+    // Colour of the surface at `from`, continued against `outwards` over `distance_px` into the hidden area.
+    // Bright light is reduced towards the light of the surface beyond it (outwards from here), and more so if
+    // its visible part is short compared with the distance. So a light fades as it slips behind an edge.
     Rgba going_on(Place from, Direction outwards, float distance_px) const;
     // Weight of the colour there for the hidden pixel (x, y), 0…1: small behind an edge that continues
     // between them.
@@ -63,15 +63,15 @@ private:
     Rgba seen_through_blur(Place at, Direction outwards, float distance_px) const;
     Rgba among_lights(Rgba own, Place from, Direction outwards, float distance_px) const;
     struct Mean {
-        float span;                                            // times the distance
-        float usual = std::numeric_limits<float>::infinity();  // what is brighter counts little
+        float span;  // length of the mean, as a multiple of the distance
+        float usual = std::numeric_limits<float>::infinity();  // brighter pixels get a small weight
     };
     Rgba shown(Place from, Direction outwards, float distance_px, const Mean& mean, Rgba otherwise) const;
 
     const LitPicture& picture_;
     const Mixtures& mixtures_;
-    static constexpr int kBlock = 16;     // pixels on a side
-    Image<unsigned char> lights_around_;  // of blocks: whether lights show that may go on with what it shows
+    static constexpr int kBlock = 16;     // side of a block in pixels
+    Image<unsigned char> lights_around_;  // per block: true if lights nearby may continue with its surface
     Plane radii_;
     float white_;
     CutEdges edges_;

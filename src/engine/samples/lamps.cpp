@@ -59,9 +59,9 @@ private:
 struct Lamp {
     std::vector<Pixel> pixels;
     Rect bounds;
-    float coc_px = 0, peak = 0;             // of its brightest pixel
-    double cut_x = 0, cut_y = 0, cuts = 0;  // sums over the pixels that hide it, right beside it
-    double lit_x = 0, lit_y = 0, lit = 0;   // sums over its own, by light
+    float coc_px = 0, peak = 0;             // of the lamp's brightest pixel
+    double cut_x = 0, cut_y = 0, cuts = 0;  // sums over the occluder's pixels right beside the lamp
+    double lit_x = 0, lit_y = 0, lit = 0;   // sums over the lamp's pixels, weighted by light
 };
 
 class LampFinder {
@@ -69,7 +69,8 @@ public:
     explicit LampFinder(const LampLight& light, Rect picture)
         : light_(light), seen_(picture.width(), picture.height(), 0) {}
 
-    // The lamp that lights (x, y), once; one wider than any has no pixels.
+    // The lamp that lights (x, y); each lamp is returned once. A lamp wider than kWidestLampPx has no
+    // pixels.
     Lamp lamp_at(int x, int y) {
         Lamp lamp;
         if (seen_(x, y)) return lamp;
@@ -126,7 +127,7 @@ std::pair<float, float> extent(const Lamp& lamp, const LampLight& light, float d
     return {low, high};
 }
 
-// visit(x, y, light) for all that is hidden of a lamp.
+// Calls visit(x, y, light) for each hidden pixel of a lamp.
 template <typename Visit>
 void complete(const Lamp& lamp, const LampLight& light, const Visit& visit) {
     if (lamp.pixels.empty() || lamp.cuts <= 0 || lamp.lit <= 0) return;

@@ -11,8 +11,8 @@
 
 namespace petzval::engine {
 
-// The light of lamps behind a silhouette without the occluder; 0 for pixels hidden by more than half, where
-// it is unknown.
+// The light of lamps behind a silhouette as it would be without the occluder. 0 for pixels hidden by more
+// than half, where it is unknown.
 Rgba unhidden_light(const Mixture& mixture);
 
 // Light of a lamp that a nearer surface hides.
@@ -30,7 +30,7 @@ struct HiddenLamps {
     }
 };
 
-// Most of lamp_widest_px: no lamp is looked at farther from where an edge cuts it.
+// Upper limit of lamp_widest_px: lamps are searched no farther from the edge that cuts them.
 constexpr int kWidestLampPx = 32;
 
 // A lamp is assumed to be as deep, across the edge that cuts it, as it is wide along the edge, and

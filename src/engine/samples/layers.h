@@ -17,7 +17,7 @@ int layer_of(float coc_px);
 using laws::kEmptinessAfter;
 using laws::kNextLayer;
 inline bool is_emptiness(int layer) { return layer % kNextLayer != 0; }
-using laws::kEmptyLayer;  // emptiness behind everything
+using laws::kEmptyLayer;  // the layer of emptiness behind everything
 // Layers between two samples of a pixel from which on the second is another surface. Parts of an estimated
 // surface lie farther apart than parts of a known one.
 constexpr int kAnotherSurface = 5 * kNextLayer, kAnotherKnownSurface = 3 * kNextLayer;
@@ -37,14 +37,14 @@ class LayersOfPixel {
 public:
     // hidden_known: hidden samples are stated, not estimated.
     explicit LayersOfPixel(bool hidden_known) : hidden_known_(hidden_known) {}
-    // The layer of a sample at this radius, if it is the next.
+    // The layer of the next sample, which has this radius.
     int at(float coc_px) const {
         const int own = layer_of(coc_px);
         if (!hides_) return own;
         if (hidden_known_ && own >= opaque_ + kNearlyTouch) return own;
         return std::max(own, opaque_ + kBehindTouching);
     }
-    // A sample's layer, and how much of it lies there: the rest comes in the next one.
+    // A sample's layer, and the fraction of the sample in it; the rest lies in the next layer.
     struct Place {
         int layer;
         float shows;  // 0…1
@@ -72,9 +72,10 @@ private:
 
     static constexpr int kNearlyTouch = 2 * kNextLayer, kBehindTouching = 6 * kNextLayer;
     bool hidden_known_, hides_ = false;
-    int opaque_ = 0;                                      // layer of the last one, where there is one
-    int touching_ = -(1 << 20);                           // layer of the first of those that touch each other
-    float covered_ = 0, in_front_ = 0, last_coc_px_ = 0;  // by those; by the ones nearer than the last
+    int opaque_ = 0;             // layer of the last opaque sample, if there was one
+    int touching_ = -(1 << 20);  // layer of the first of the samples that touch each other
+    // Coverage of the touching samples; of those in front of the last one.
+    float covered_ = 0, in_front_ = 0, last_coc_px_ = 0;
 };
 
 }  // namespace petzval::engine

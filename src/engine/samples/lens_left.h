@@ -33,10 +33,10 @@ namespace petzval::engine {
 // proportion to the area that each lost: nothing else is known there, so the surfaces meet.
 struct LensLeft {
     float before = 1;  // free area before the current surface
-    float own = 0;     // fraction of that taken by this surface so far
-    float beside = 1;  // free area if all lay side by side
-    float more = 0;    // sum of the areas lost against that
-    int layer = 0;     // of the current surface
+    float own = 0;     // fraction of `before` that this surface takes so far
+    float beside = 1;  // free area if all surfaces lay side by side
+    float more = 0;    // sum of the areas that surfaces lost compared with side by side
+    int layer = 0;     // layer of the current surface
     int another_surface = kAnotherSurface;
 
     struct Taken {
@@ -45,7 +45,7 @@ struct LensLeft {
     float free() const { return laws::law_free(before, own); }
     // The next layer from the front begins.
     void meet(int at_layer) {
-        // (Emptiness behind everything wraps where what is before it lies in front of focus.)
+        // (The difference to the layer of emptiness may overflow an int; unsigned numbers wrap.)
         const float gap = float(unsigned(at_layer) - unsigned(layer));
         laws::law_meet(before, own, gap, float(another_surface));
         layer = at_layer;

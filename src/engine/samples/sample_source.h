@@ -15,14 +15,14 @@ namespace petzval::engine {
 class SampleSource {
 public:
     SampleSource() = default;
-    // Rows are asked for from a multiple of this on, and to one or to the end.
+    // Requested ranges begin at a multiple of this, and end at one or at the last row.
     static constexpr int kRows = 16;
     // Reads existing samples, which must outlive this.
     SampleSource(const CocSamples& all) : all_(&all), width_(all.width), height_(all.height()) {
         for (const CocSample& s : all.samples)
             largest_coc_px_ = std::max(largest_coc_px_, std::abs(s.coc_px));
     }
-    // make(y0, y1, into): rows y0…y1-1, asked from any thread; largest_coc_px: of any |radius|.
+    // make(y0, y1, into) makes rows y0…y1-1, from any thread. largest_coc_px: the largest |radius| of all.
     using Make = std::function<void(int, int, CocSamples&)>;
     SampleSource(int width, int height, float largest_coc_px, Make make)
         : make_(std::move(make)), width_(width), height_(height), largest_coc_px_(largest_coc_px) {}

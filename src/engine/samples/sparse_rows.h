@@ -19,8 +19,8 @@ template <typename T>
 class SparseRows {
 public:
     static constexpr int kBand = 8;  // rows
-    SparseRows() = default;          // no pixel has one
-    // To be found row by row.
+    SparseRows() = default;          // holds no values
+    // Add the values by find_row().
     SparseRows(int width, int height)
         : width_(width),
           words_((width + 63) / 64, height),
@@ -35,8 +35,8 @@ public:
         if (std::all_of(bands_.begin(), bands_.end(), [](const auto& band) { return band.empty(); }))
             words_ = {}, bands_ = {};
     }
-    // find(emit) calls emit(x, value) of the pixels of row y that have one, from the left. Once a row; rows
-    // of a band one after the other.
+    // Calls find(emit), which calls emit(x, value) for the pixels of row y that have a value, from the
+    // left. Call it once per row; rows of one band one after the other.
     template <typename Find>
     void find_row(int y, const Find& find) {
         std::vector<T> row;
@@ -46,7 +46,8 @@ public:
             row.push_back(value);
         });
         BigVector<T>& band = bands_[std::size_t(y / kBand)];
-        if (band.empty()) band.reserve(2 * kBand * row.size());  // room that is not used takes no memory
+        // Reserved room that is not written costs no memory.
+        if (band.empty()) band.reserve(2 * kBand * row.size());
         words[0].before = std::uint32_t(band.size());
         for (int i = 1; i < words_.width(); ++i)
             words[i].before = words[i - 1].before + std::uint32_t(std::popcount(words[i - 1].has));

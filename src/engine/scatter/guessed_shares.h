@@ -1,5 +1,5 @@
-// Marks guesses, to be drawn through the beauty's plan like a layer. Only the samples are asked, not the
-// estimator that made them.
+// Marks the samples that were estimated. The marks are drawn through the beauty's plan like a layer; they
+// come from the samples alone, not from the estimator.
 #pragma once
 
 #include "engine/waist/view.h"

@@ -12,7 +12,7 @@
 namespace petzval::engine {
 namespace {
 
-// Alpha takes no part.
+// Ratio of two colours, channel by channel; alpha is ignored.
 Rgba ratio(Rgba of, Rgba to) {
     const auto divide = [](float a, float b) { return b != 0 ? a / b : 0.0f; };
     return {divide(of.r, to.r), divide(of.g, to.g), divide(of.b, to.b), 0};
@@ -23,7 +23,7 @@ Rgba guide(Rgba colour, bool is_light) {
     return is_light ? colour : Rgba{colour.a, colour.a, colour.a, colour.a};
 }
 
-// The pixels that are looked at along a direction, nearest first.
+// The pixels that a search visits in each direction, nearest first.
 constexpr int kDirections = 16, kFarthest = 64;
 using Steps = std::array<std::array<std::array<int, 2>, kFarthest>, kDirections>;
 
@@ -44,7 +44,7 @@ const Steps& steps() {
 // it.
 struct OfSurface {
     float coc_px = 0;
-    std::vector<Rgba> layer, guide;  // sums
+    std::vector<Rgba> layer, guide;  // sums of light
     Rgba share(std::size_t i, Rgba otherwise) const {
         const Rgba found = ratio(layer[i], guide[i]), &all = guide[i];
         return {all.r != 0 ? found.r : otherwise.r, all.g != 0 ? found.g : otherwise.g,
@@ -56,7 +56,7 @@ struct OfSurface {
 // them: of 2 x 2, or of more where the surface is blurred wider.
 class Shares {
 public:
-    static constexpr int kRows = 8;  // of pixels that are done together, the largest square
+    static constexpr int kRows = 8;  // rows that are done together: the side of the largest square
     Shares(const EngineView& input, const CocSamples& complete, std::span<const SampleLayer> layers)
         : input_(input), complete_(complete), all_layers_(layers), layers_(layers.size()) {
         for (std::size_t side = 2, i = 0; i < kSizes; side *= 2, ++i)
@@ -103,7 +103,8 @@ private:
     // Scales the fractions so that their mean over the visible samples is the layer's own.
     void meet(std::span<const CocSample> samples, Rgba own, std::size_t i, Rgba* shares) const {
         const bool is_light = all_layers_[i].is_light;
-        Rgba shown, of_layer;  // the light of what the pixel shows, and the layer's by the shares so far
+        // Light of the visible samples, and the layer's part of it by the present shares.
+        Rgba shown, of_layer;
         float open = 1;
         for (std::size_t k = 0; k < samples.size(); ++k) {
             const Rgba light = seen(samples[k], open) * guide(samples[k].colour, is_light);
@@ -121,14 +122,14 @@ private:
                          towards(share.b, is.b, own.b), 0};
         }
     }
-    // One of several values, moved so that their mean, now `is`, becomes `own`: none leaves 0…1.
+    // Moves one of several values with mean `is` so that their mean becomes `own`; each stays within 0…1.
     static float towards(float value, float is, float own) {
         if (own == is) return value;
         const float end = own > is ? std::max(1.0f, own) : std::min(0.0f, own);
         return value + (own - is) / (end - is) * (end - value);
     }
 
-    // In the pixels around that show a surface at that radius.
+    // The shares of a surface with that radius, from the surrounding pixels that show it.
     const OfSurface& of_surface(int x, int y, float coc_px) {
         const float same = std::max(0.25f, 0.03f * std::abs(coc_px));
         auto& square = square_at(x, std::abs(coc_px));
@@ -162,8 +163,9 @@ private:
     const EngineView& input_;
     const CocSamples& complete_;
     std::span<const SampleLayer> all_layers_;
-    std::size_t layers_;                                             // of them
-    std::array<std::vector<std::vector<OfSurface>>, kSizes> found_;  // by square of the rows under way
+    std::size_t layers_;  // number of layers
+    // Per size and square, for the rows under way.
+    std::array<std::vector<std::vector<OfSurface>>, kSizes> found_;
 };
 
 }  // namespace

@@ -21,15 +21,15 @@ namespace petzval::engine {
 // that show the same surface; the fractions of several visible samples average to the pixel's.
 class LayerShares {
 public:
-    // Layers are done several at once, which costs memory.
+    // Number of layers that are done at once; each costs memory.
     static constexpr std::size_t kAtOnce = 4;
     LayerShares(const EngineView& input, const CocSamples& complete, std::span<const SampleLayer> layers);
-    // The shares of the layer with this number among them, by sample.
+    // The shares of one layer, for every sample.
     std::vector<Rgba> of(std::size_t layer) const;
 
 private:
     std::size_t layers_;
-    std::vector<Rgba> all_;  // of each sample those of all layers
+    std::vector<Rgba> all_;  // for each sample the shares of all layers
 };
 
 // The layer's light in the place of the beauty's; coverage stays.

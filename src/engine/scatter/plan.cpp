@@ -22,7 +22,7 @@ struct TileDraft {
     std::vector<LevelRun> runs;
     std::vector<Arrival> arrivals;
     std::vector<float> shares;
-    // In the memory that there is.
+    // Empties the lists and keeps their memory.
     void restart() {
         sectors = 1;
         layers.clear(), runs.clear(), arrivals.clear(), shares.clear();
@@ -37,7 +37,7 @@ public:
         std::atomic<bool>& asked = asked_[number];
         if (!asked.load(std::memory_order_relaxed)) asked.store(true, std::memory_order_relaxed);
     }
-    // The asks, and the place among them of every number that is one.
+    // Puts the kernels that were asked for into `set`. Returns the place in it of every kernel's number.
     std::vector<std::uint32_t> places(const ScatterKernels& kernels, device::KernelSet& set) const {
         std::vector<std::uint32_t> place(asked_.size());
         for (std::size_t number = 0; number < asked_.size(); ++number) {
@@ -57,14 +57,14 @@ class SurfaceCount {
 public:
     explicit SurfaceCount(int another_surface) : apart_(another_surface - kNextLayer) {}
     void add(int layer) {
-        // (Emptiness behind everything wraps where what is before it lies in front of focus.)
+        // (The difference to the layer of emptiness may overflow an int; unsigned numbers wrap.)
         if (count_ == 0 || int(unsigned(layer) - unsigned(last_)) >= apart_) ++count_;
         last_ = layer;
     }
     int count() const { return count_; }
 
 private:
-    int apart_;  // layers; surfaces nearer to each other are one that slopes
+    int apart_;  // in layers; surfaces closer than this count as one sloping surface
     int count_ = 0, last_ = 0;
 };
 
@@ -140,7 +140,8 @@ private:
         while (end < keys_.size() && keys_[end] >> 32 == keys_[begin] >> 32) ++end;
         return end;
     }
-    // The layer that begins there, with the emptiness at its depth; returns where the next one begins.
+    // Adds the layer that begins at `begin`, with the emptiness at its depth. Returns the begin of the
+    // next one.
     std::size_t add_layer(std::size_t begin, TileDraft& draft) {
         const int layer = layer_of_key(keys_[begin]);
         const std::size_t middle = is_emptiness(layer) ? begin : end_of_layer(begin);
@@ -203,7 +204,7 @@ void write_tile(const TileDraft& draft, const TilePlace& at, ScatterPlan& plan) 
               plan.shares.begin() + (plan.shares.empty() ? 0 : std::ptrdiff_t(at.arrival)));
 }
 
-// The drafts of tiles first, first + 1, … at the end of the plan's lists.
+// Appends the drafts of tiles first, first + 1, … to the plan's lists.
 void append(std::span<const TileDraft> drafts, std::size_t first, Workers& workers, ScatterPlan& plan) {
     std::vector<TilePlace> at;
     TilePlace end{std::uint32_t(plan.layers.size()), std::uint32_t(plan.runs.size()),
@@ -248,7 +249,7 @@ void fill_tiles(const ScatterKernels& kernels, Progress& progress, Workers& work
     AskMarks marks(kernels.asks());
     std::size_t sources = 0;
     for (const SourceArray& level : plan.levels) sources += level.sources.size();
-    plan.arrivals.reserve(4 * sources);  // room that is not used takes no memory
+    plan.arrivals.reserve(4 * sources);  // reserved room that is not written costs no memory
     const std::size_t tiles = plan.tiles.size();
     std::vector<TileDraft> drafts(std::min(tiles, kTilesAtOnce));
     for (std::size_t first = 0; first < tiles; first += kTilesAtOnce) {

@@ -22,13 +22,13 @@ namespace petzval::engine {
 
 // Resolution at which sources are spread.
 struct LevelRule {
-    float largest_cells = 8;  // no source covers more than this radius, in cells of its level…
-    float fade = 0.15f;       // …but for the fade: across this share of a level it is spread on two
+    float largest_cells = 8;  // largest radius of a source, in cells of its level
+    float fade = 0.15f;       // within this fraction of a level a source fades into the next one
     // One budget for the whole lens does not know which part of it each of three surfaces takes: where at
     // least this many reach a tile, sectors of the pupil are composited each on its own.
     int surfaces_for_sectors = 3;
-    bool hidden_known = false;              // what lies behind is given, not guessed (samples/layers.h)
-    int another_surface = kAnotherSurface;  // layers, as LensLeft has it
+    bool hidden_known = false;  // true if hidden surfaces are given, not estimated (samples/layers.h)
+    int another_surface = kAnotherSurface;  // in layers; see LensLeft
     // Sectors of equal light that the pupil is taken in: in the middle, and around that.
     int inner_sectors = 0, outer_sectors = 4;
     int sectors() const { return inner_sectors + outer_sectors; }
@@ -39,7 +39,7 @@ struct LevelRule {
     static constexpr float kOctavesPerLevel = 1 - 1.0f / kHalved;
     // Place of a radius on the scale of levels: 0 up to largest_cells, n where level n ends.
     float position(float coc_px) const;
-    float radius_at(float position) const;  // in pixels: that whose position this is
+    float radius_at(float position) const;  // the inverse: the radius at this position, in pixels
     // Largest radius any source can have on its level.
     float largest_radius() const { return radius_at(fade); }
     // Squares of pixels that show one surface alone and fall into one cell of every level they are spread on
@@ -54,8 +54,9 @@ inline float radius_in_pixels(float radius, int level) {
     const float size = float(1 << level), square = radius * radius * size * size;
     return level == 0 ? radius : std::copysign(std::sqrt(square + (size * size - 1) / 3), radius);
 }
-// And back: the radius of a disc that, averaged over cells of its level, is as wide as one of coc_px over a
-// pixel. (A square of side a adds a^2/12 to the mean square along each axis, a disc of radius r has r^2/4.)
+// The inverse: the radius of a disc in cells of its level that, averaged over such cells, is as wide as a
+// disc of coc_px averaged over pixels. (A square of side a adds a^2/12 to the mean square along each axis,
+// a disc of radius r has r^2/4.)
 inline float radius_in_cells(float coc_px, int level) {
     const float size = float(1 << level), square = coc_px * coc_px - (size * size - 1) / 3;
     return level == 0 ? coc_px : std::copysign(std::sqrt(std::max(0.0f, square)) / size, coc_px);
@@ -112,12 +113,12 @@ struct TileLayer {
 struct Tile {
     Rect pixels;
     std::uint32_t first_layer;
-    int sectors;  // of the pupil, each with a budget of its own; 1: all of it at once
+    int sectors;  // sectors of the pupil, each with its own budget; 1: the whole pupil
 };
 
 struct ScatterPlan {
     static constexpr int kTile = laws::kScatterTile;      // pixels on a side
-    static constexpr int kBorder = laws::kScatterBorder;  // cells around a tile that enlarging reads
+    static constexpr int kBorder = laws::kScatterBorder;  // cells around a tile that magnification reads
     // The cells of a level that a tile needs.
     static Rect cells_of(const Rect& tile, int level) { return engine::cells_of(tile, level, kBorder); }
 
@@ -130,7 +131,7 @@ struct ScatterPlan {
     std::vector<TileLayer> layers;
     std::vector<LevelRun> runs;
     BigVector<Arrival> arrivals;
-    std::vector<float> shares;  // of each arrival's light that it sends; empty: all of it
+    std::vector<float> shares;  // fraction of its light that each arrival sends; empty: all of it
     device::KernelSet kernels;
     // Light that lands in a pixel is dimmed by these (Samples::holdout).
     CocSamplesView holdout;
@@ -143,8 +144,8 @@ class ScatterKernels;
 ScatterPlan make_plan(const EngineView& strip, SampleSource samples, View<const unsigned char> connected,
                       const Rect& rows, int first_row, const LevelRule& rule, const ScatterKernels& kernels);
 
-// The same plan with other light in its sources: `samples` differ from those that it was made from in colour,
-// not in coverage.
+// Gives the sources of a plan other light. `samples` differ in colour, not in coverage, from those that
+// the plan was made from.
 void relight(ScatterPlan& plan, const EngineView& strip, SampleSource samples,
              View<const unsigned char> connected, const ScatterKernels& kernels);
 

@@ -158,7 +158,7 @@ public:
         return Picture::uninitialised(frame_.width(), frame_.height());
     }
 
-    // Draws `rows` of the frame. `share`: of the progress.
+    // Draws `rows` of the frame. `share`: fraction of the progress.
     void draw(const Rect& rows, int halo, double share, Output& out) {
         const int first = std::max(0, rows.y0 - halo);
         const EngineView input = frame_.rows(first, std::min(frame_.height(), rows.y1 + halo));
@@ -180,15 +180,15 @@ public:
     }
 
 private:
-    // Rows of the frame, of which `rows` are to be drawn, on their way.
+    // Rows of the frame while they are worked on; `rows` of them will be drawn.
     struct Strip {
         const EngineView& input;
-        Rect rows;  // counted from the strip's own
+        Rect rows;  // counted from the strip's first row
         int first_row = 0;
         Image<unsigned char> connected;
         std::shared_ptr<const CompletedPicture> completed;
-        std::size_t sample_bytes = 0;  // of all
-        CocSamples base;               // all that is seen but highlights, where there are layers
+        std::size_t sample_bytes = 0;  // bytes of all samples
+        CocSamples base;               // all light except highlights; only if there are layers
     };
 
     Strip complete(const EngineView& input, const Rect& rows, int first_row) {
@@ -212,7 +212,7 @@ private:
         explicit Found(const EngineView& strip)
             : highlights(std::size_t(strip.height() / SampleSource::kRows + 1)),
               casters(strip.width(), strip.height()) {}
-        std::vector<std::vector<Highlight>> highlights;  // by rows
+        std::vector<std::vector<Highlight>> highlights;  // per row
         ShadowCasters casters;
     };
 
@@ -228,7 +228,8 @@ private:
             share_lens_area(rows, rule_.another_surface, *strip.input.services.workers);
         found.casters.add(y0, rows);
     }
-    // The same, held at once for layers alone; else what was completed lasts until every row was asked for.
+    // The samples without highlights. They are held at once only for layers; otherwise each is made when
+    // its row is asked for.
     SampleSource base_of(Strip& strip, Found& found) const {
         const std::shared_ptr<const CompletedPicture> completed = std::move(strip.completed);
         const int width = strip.input.width(), height = strip.input.height();

@@ -14,11 +14,11 @@ constexpr float kStepsPerCell = 16;
 // The light that a narrow disc keeps in its own pixel changes fast with the radius: with coarse steps one row
 // of a slope covers 2 % too little and the hidden surface shows through. Below kNarrowCells steps are finer.
 constexpr float kNarrowCells = 2, kNarrowSteps = 64;
-constexpr float kMadePerCell = 4;  // of lenses that take long; rims a quarter cell apart blend
+constexpr float kMadePerCell = 4;  // for lenses whose kernels take long; rims a quarter cell apart blend
 constexpr int kZonesX = 9, kZonesY = 6;
-constexpr float kCoreEnd = 1.5f;       // times the radius a level is made for
-constexpr float kTrace = 0.004f;       // share of light outside that is not worth a skirt
-constexpr float kNegligible = 0.001f;  // share of light in all that is cut away from a piece
+constexpr float kCoreEnd = 1.5f;       // end of the core, as a multiple of the level's radius
+constexpr float kTrace = 0.004f;       // smaller fractions of light outside the core get no skirt
+constexpr float kNegligible = 0.001f;  // fraction of all light that may be cut off a piece
 
 // A kernel that reaches farther than this in focus, in cells, is nowhere narrow: its rims are as far apart
 // from step to step as its rays, and blend.
@@ -96,8 +96,8 @@ std::array<ScatterKernels::ZoneShare, 4> ScatterKernels::zones_for(const Rect& f
                                                                    float radius) const {
     if (zones_x_ * zones_y_ == 1) return {{{0, 1}}};
     x += -frame.x0 >> level, y += -frame.y0 >> level;
-    constexpr float kHidesTheChoice = 3;  // cells of radius
-    constexpr int kNarrow = 2;            // cells beyond the radius
+    constexpr float kHidesTheChoice = 3;  // radius in cells from which the choice of a zone is invisible
+    constexpr int kNarrow = 2;            // reach beyond the radius, in cells
     const bool nearly_sharp = std::abs(radius) < kHidesTheChoice;
     const double px = std::ldexp(x + 0.5, level) / lens_.frame.width() * zones_x_ - 0.5;
     const double py = std::ldexp(y + 0.5, level) / lens_.frame.height() * zones_y_ - 0.5;

@@ -37,7 +37,7 @@ public:
     // aberrations make the kernels of those wide, they take their share of each; where not, the nearest.
     struct ZoneShare {
         int zone = 0;
-        float share = 0;  // 0: not taken
+        float share = 0;  // 0: this zone is not used
     };
     std::array<ZoneShare, 4> zones_for(const Rect& frame, int level, int x, int y, float radius) const;
     bool has_zones() const { return zones_x_ * zones_y_ > 1; }
@@ -48,7 +48,7 @@ public:
         const int step = step_of(level, radius);
         return {level, zone, radius < 0 ? ~step : step, skirt_of, by_sector};
     }
-    // Asks that there can be are numbered, in their order.
+    // Number of a kernel among all possible kernels, in their order.
     std::size_t number_of(const device::KernelAsk& ask) const {
         std::size_t number = std::size_t(ask.level * zones_x_ * zones_y_ + ask.zone);
         number = number * std::size_t(2 * steps_) + std::size_t(ask.step + steps_);
@@ -68,7 +68,7 @@ public:
     int coarsest_for(int level) const;
     // Largest offset of any weight of a kernel of this level, in cells.
     int reach(int level) const { return reach_[std::min(std::size_t(level), reach_.size() - 1)]; }
-    // The same, of kernels for this radius.
+    // The same for the kernels of one radius.
     int reach(int level, float radius) const;
 
     std::size_t bytes() const override;
@@ -87,19 +87,19 @@ private:
     kernel::PointSpread skirt(const kernel::PointSpread& whole, const Place& place, int skirt_of) const;
     Rgba light_of_core(const Place& place) const;
     int find_skirt_levels(int level, int step) const;
-    int skirt_levels_for(float farthest) const;  // of light that reaches so many cells
+    int skirt_levels_for(float farthest) const;  // for light that reaches this many cells
 
-    LensOnPicture lens_;                                  // of a picture that begins with the display window
+    LensOnPicture lens_;                                  // on a picture that begins with the display window
     int levels_, zones_x_ = 1, zones_y_ = 1, steps_ = 0;  // steps_: kernels on either side of focus
     int inner_sectors_, outer_sectors_;
     float core_begin_, core_end_;  // cells from the middle where cores fade out
     bool has_skirts_ = false;
-    std::vector<int> most_skirt_levels_;  // of any kernel of a level
+    std::vector<int> most_skirt_levels_;  // per level: the largest of all its kernels
     std::vector<int> reach_;
     std::vector<bool> blurred_;           // per level: its kernels are wide also at radius 0
     std::vector<short> reach_of_radius_;  // per level and step
     mutable std::vector<std::atomic<short>> skirt_levels_;  // per level and signed step; -1: not known yet
-    mutable std::mutex mutex_;                              // of what follows
+    mutable std::mutex mutex_;                              // guards light_of_core_
     mutable std::map<Place, Rgba> light_of_core_;
 };
 

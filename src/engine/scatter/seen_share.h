@@ -9,7 +9,7 @@ namespace petzval::engine {
 
 inline float cover(const CocSample& s) { return s.colour.a + s.empty; }
 
-// `open` is the rest of the pixel, which the samples in front leave; the sample takes its part of it.
+// `open`: area of the pixel that the samples in front left free. The sample takes its fraction of it.
 inline float seen(const CocSample& s, float& open) {
     const float covers = cover(s);
     if (covers <= 0) return open;

@@ -27,8 +27,8 @@ constexpr float kLeastCoverage = 1e-20f;
 struct Gathered {
     int layer = 0, skirt_of = 0;
     Rgba light;                             // summed over pixels
-    float coc = 0, tilt_x = 0, tilt_y = 0;  // summed times light.a
-    float x = 0, y = 0;                     // the same, from the cell's first pixel
+    float coc = 0, tilt_x = 0, tilt_y = 0;  // sums weighted by light.a
+    float x = 0, y = 0;                     // the same for the place in the cell, from its first pixel
     Gathered() = default;
     // A square of `side` x `side` pixels, each with this light.
     Gathered(int in_layer, Rgba pixel, float coc_px, Slope tilt, int side)
@@ -46,7 +46,7 @@ struct Gathered {
         light += other.light, coc += other.coc, tilt_x += other.tilt_x, tilt_y += other.tilt_y;
         x += other.x, y += other.y;
     }
-    // The same in a cell whose first pixel lies (dx, dy) before that of this one.
+    // The same light, in a cell whose first pixel lies (dx, dy) before that of this cell.
     Gathered from(int dx, int dy) const {
         Gathered moved = *this;
         moved.x += light.a * float(dx), moved.y += light.a * float(dy);
@@ -56,7 +56,7 @@ struct Gathered {
     Source source(int cell_x, int cell_y, int level) const {
         const float mean = 1 / light.a, size = float(1 << level);
         const auto off = [&](float sum) {
-            constexpr float kLeast = 0.03f;  // less shows nowhere
+            constexpr float kLeast = 0.03f;  // smaller tilts are invisible
             const float cells = (sum * mean + 0.5f) / size - 0.5f;
             return std::abs(cells) < kLeast ? 0.0f : cells;
         };
@@ -113,14 +113,14 @@ public:
         for (int i = 0; i < kSquares; ++i) from_px_[std::size_t(i)] = rule.radius_at(float(i) + rule.fade);
     }
 
-    // Pixel (x, y), clamped to the picture; put(level, gathered).
+    // Gathers pixel (x, y), clamped to the picture, and calls put(level, gathered).
     template <typename Put>
     void visit(int x, int y, const Put& put) const {
         const int u = std::min(x, coc_px_.width() - 1), v = std::min(y, coc_px_.height() - 1);
         visit(samples_.at(u, v - first_row_), u, v, 1, put);
     }
-    // The square of pixels that begins at (x, y), put(level, gathered) as one pixel; how many it is wide. 1:
-    // there is none, and nothing was put.
+    // Gathers the square of pixels that begins at (x, y) as one and calls put(level, gathered). Returns
+    // its side; 1 if there is no square, and then nothing was put.
     template <typename Put>
     int visit_square(int x, int y, const Put& put) const {
         std::array<CocSample, kMostOfSquare> means;
@@ -163,7 +163,7 @@ private:
             put_both(is_behind_everything(s) ? kEmptyLayer : layer + kEmptinessAfter, {0, 0, 0, s.empty});
         }
     }
-    // The logarithm of its pixels on a side, by its first pixel.
+    // Binary logarithm of the side of the largest square whose first pixel is (x, y).
     int largest_square_at(int x, int y) const {
         if (x >= coc_px_.width() || y >= coc_px_.height()) return 0;
         const auto first = samples_.at(x, y - first_row_);
@@ -206,7 +206,7 @@ private:
         return first.size();
     }
 
-    static constexpr std::size_t kMostOfSquare = 4;  // samples of a pixel
+    static constexpr std::size_t kMostOfSquare = 4;  // most samples of a pixel in a square
     static constexpr int kSquares = 3;
     std::array<float, kSquares> from_px_;  // |radius| from which on pixels form squares of 2, of 4, of 8
     CocSamplesView samples_;
@@ -219,7 +219,7 @@ private:
 // Rows of cells of one level, as a band leaves them.
 struct Rows {
     BigVector<Source> sources;
-    std::vector<std::uint32_t> ends;  // of each row
+    std::vector<std::uint32_t> ends;  // per row: end of its sources
     void end_row() { ends.push_back(std::uint32_t(sources.size())); }
 };
 
@@ -233,7 +233,7 @@ public:
     }
     int height() const { return height_; }
 
-    // Rows of cells first…first+n-1, where all rows before are known.
+    // Places the sources of rows first…first+n-1; all rows before must be placed.
     void place(const Rows& rows) {
         std::uint32_t begin = 0;
         for (const std::uint32_t end : rows.ends) {
@@ -268,7 +268,7 @@ public:
     }
 
 private:
-    // Sources in the first and in the last cell: rows ascend in x.
+    // Number of sources in the first cell of a row, and in the last one; sources ascend in x.
     static std::size_t head(std::span<const Source> row) {
         std::size_t n = 0;
         while (n < row.size() && row[n].x == 0) ++n;
@@ -302,7 +302,7 @@ private:
 
     int width_, height_, margin_;
     OpenEdges open_;
-    std::vector<std::uint32_t> counts_;  // of the picture's rows
+    std::vector<std::uint32_t> counts_;  // per row of the picture
     SourceArray array_;
 };
 
@@ -320,7 +320,8 @@ public:
         const int coarsest = int(levels.size()) - 1;
         for (int l = 1; l <= coarsest; ++l)
             cells_[std::size_t(l)].resize(std::size_t(cells_across(coarsest)) << (coarsest - l));
-        for (int l = 0; l <= coarsest; ++l)  // mostly one of a cell; room that is not used takes no memory
+        // Most cells hold one source; reserved room that is not written costs no memory.
+        for (int l = 0; l <= coarsest; ++l)
             rows_[std::size_t(l)].sources.reserve(std::size_t(cells_across(l)) *
                                                   std::size_t(((rows - 1) >> l) + 1));
         for (int l = kWideLevel; l <= coarsest; ++l)
@@ -378,7 +379,7 @@ private:
     const ScatterKernels& kernels_;
     int width_;
     std::vector<Rows> rows_;                // per level
-    std::vector<std::vector<Cell>> cells_;  // per coarse level, of the row of cells under way
+    std::vector<std::vector<Cell>> cells_;  // per coarse level: the row of cells under way
     // Sums of the current row of pixels, for wide cells: one sum of millions in single precision would lose
     // light.
     static constexpr int kWideLevel = 6;
@@ -387,7 +388,8 @@ private:
 
 // Pixels of the picture, and those beyond it that fill its last cells.
 void gather(const Maker& maker, const Rect& pixels, bool squares, Band& band) {
-    std::vector<int> done(std::size_t(pixels.width() + 1) / 2, pixels.y0);  // rows of each two columns
+    // Per pair of columns: rows that are done.
+    std::vector<int> done(std::size_t(pixels.width() + 1) / 2, pixels.y0);
     for (int y = pixels.y0; y < pixels.y1; ++y) {
         for (int x = 0; x < pixels.x1;) {
             const auto put = [&](int level, const Gathered& g) { band.put(level, x, y, g); };

@@ -125,17 +125,18 @@ private:
         return edge / (model.patch_alike + unlike * unlike);
     }
 
-    // A surface mostly there is wholly there, one hardly there is not: smoothstep around one half.
+    // Rounds a share: a surface with most of the surroundings gets nearly all, one with little nearly
+    // nothing. Smoothstep around one half.
     static float sharpened(float share) {
         const float least = completion_model.share_least;
         const float t = std::clamp((share - least) / (1 - 2 * least), 0.0f, 1.0f);
         return t * t * (3 - 2 * t);
     }
 
-    // Weight of one surface among those met, by 1/distance.
+    // A surface met by the search, with weights by 1/distance.
     struct Met {
-        float all = 0, within = 0;  // its own outline
-        float unhidden = 0;         // by outlines of nearer ones
+        float all = 0, within = 0;  // weight of all hits, and of those inside the surface's own outline
+        float unhidden = 0;         // weight of hits that no outline of a nearer surface hides
     };
 
     // The surfaces met, nearest first. The farthest fills the rest; a nearer one takes the share that it has
@@ -146,7 +147,7 @@ private:
         std::array<HiddenGuess, kSurfaces + 1> surfaces;
         std::size_t n = 0;
         for (bool first = true;; first = false) {
-            // The farthest that is left, and all that belongs to it.
+            // The farthest surface that is left, and all hits that belong to it.
             float farthest = -1e30f;
             for (const auto& direction : hits)
                 for (const Found& f : direction)
@@ -213,7 +214,7 @@ private:
             const HiddenOutlines::Open open = outlines_.open({f.x, f.y}, {x, y}, f.coc_px);
             met.within += share * open.within, met.unhidden += share * open.unhidden;
         };
-        float nearest = 1e9f;  // distance, px
+        float nearest = 1e9f;  // distance of the nearest hit, px
         for (std::size_t k = 0; k < kDirections; ++k)
             if (const Found* f = take(k)) nearest = std::min(nearest, f->distance_px);
         constexpr std::size_t kPairs = kDirections / 2;
@@ -292,7 +293,7 @@ Range range(std::size_t begin, std::size_t end) {
     return r;
 }
 
-// Answers found in a square of kLargestSquare pixels so far.
+// The answers that were found so far in one square of kLargestSquare pixels.
 class Answers {
 public:
     void clear() { answers_.clear(); }
@@ -343,7 +344,9 @@ struct Band {
                 const std::size_t begin = hidden.size();
                 filler.fill(x, y, hidden);
                 own = range(begin, hidden.size());
-                if (own.count == 0) continue;  // its neighbours may lie closer to the silhouette
+                // Nothing found here; neighbours closer to the silhouette may still find
+                // something.
+                if (own.count == 0) continue;
                 answers.add(x, y, coc(x, y), shared_square(std::span(hidden).subspan(begin), shared_from_px),
                             own);
             }
@@ -382,7 +385,7 @@ HiddenLayers fill_hidden(const LitPicture& picture, View<const float> coc,
                 for (int x = 0; x < width; ++x)
                     if (const Range r = band.ranges(x, y - rows.y0); r.count > 0) emit(x, r);
             });
-        guesses[std::size_t(i)].assign(band.hidden.begin(), band.hidden.end());  // no more room
+        guesses[std::size_t(i)].assign(band.hidden.begin(), band.hidden.end());  // without spare capacity
     });
     smooth(layers.ranges, guesses, filler.known(), workers);
     parallel_for(bands, workers, [&](int i) {

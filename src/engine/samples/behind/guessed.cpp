@@ -11,10 +11,10 @@
 namespace petzval::engine {
 namespace {
 
-constexpr int kLeastBlock = 4, kLongestSearch = 20;  // pixels; blocks
+constexpr int kLeastBlock = 4, kLongestSearch = 20;  // in pixels; in blocks
 constexpr int kDirections = 16;
-constexpr float kSteepest = 0.3f;  // change of radius per pixel that still is one surface
-constexpr float kBlurredPx = 1;    // what is sharper hides nothing that a lens looks past
+constexpr float kSteepest = 0.3f;  // largest change of the radius per pixel within one surface
+constexpr float kBlurredPx = 1;    // a sharper occluder hides nothing that a lens would see past it
 
 bool one_surface(float coc_a, float coc_b) {
     return std::abs(coc_a - coc_b) < 1.5f + 0.1f * std::max(std::abs(coc_a), std::abs(coc_b));
@@ -170,7 +170,7 @@ public:
 
     // The blocks around a pixel vote, if what they found is farther than it by a pixel of radius.
     void vote(int x, int y, float coc_px, Votes& votes) const {
-        constexpr float kCountsPx = 2.8f;  // as what a pixel finds at this distance
+        constexpr float kCountsPx = 2.8f;  // a block's vote weighs like a hit at this distance
         const float u = (float(x) + 0.5f) / float(block_) - 0.5f,
                     v = (float(y) + 0.5f) / float(block_) - 0.5f;
         const int left = int(std::floor(u)), top = int(std::floor(v));
@@ -231,7 +231,7 @@ public:
     PixelFill(const EngineView& input, View<const Touched> touched)
         : input_(input), judged_(input.samples.judged()), touched_(touched), blocks_(input) {}
 
-    // votes: room for them.
+    // `votes`: scratch memory.
     std::optional<FilledIn> at(int x, int y, Votes& votes) const {
         const float own = input_.samples.coc_px(x, y);
         if (own > -kBlurredPx) return std::nullopt;
@@ -249,8 +249,9 @@ private:
     // blur hardly separates the two counts as the occluder's continuation.
     void look(int x, int y, int direction, Votes& votes) const {
         constexpr int kReach = 8;
-        constexpr float kFarther = 0.5f;                                        // of the own radius
-        constexpr std::array<int, 10> kSteps{1, 1, 0, -1, -1, -1, 0, 1, 1, 1};  // across; down two later
+        constexpr float kFarther = 0.5f;  // fraction of the pixel's own radius
+        // Steps in x; the step in y is the entry two later.
+        constexpr std::array<int, 10> kSteps{1, 1, 0, -1, -1, -1, 0, 1, 1, 1};
         const int dx = kSteps[std::size_t(direction)], dy = kSteps[std::size_t(direction) + 2];
         const float step = dx != 0 && dy != 0 ? float(M_SQRT2) : 1.0f;
         float surface = input_.samples.coc_px(x, y);

@@ -27,10 +27,11 @@ struct Guessed {
     bool empty() const { return fill.empty() && rims.empty(); }
     std::size_t bytes() const { return fill.bytes() + rims.bytes(); }
 };
-// fills: also what is hidden.
+// fills: also estimate the hidden surfaces.
 Guessed guess(const EngineView& input, bool fills);
 
-// Pixels a side of the blocks (a power of two), and how far what decides a fill may lie from it.
+// Side of the blocks in pixels, a power of two; and the distance beyond which pixels do not influence a
+// fill.
 int fill_block_px(float nearest_coc_px);
 int fill_reach_px(float nearest_coc_px);
 

@@ -13,7 +13,7 @@ namespace {
 using laws::kOpaque;
 // Largest step of the radius from pixel to pixel within one sheet: visible samples, and hidden ones.
 constexpr float kShownStepPx = laws::kConnected.step_px, kHiddenStepPx = laws::kHiddenSheet.step_px;
-constexpr float kMarginPx = 1.5f;  // pixels have a width; half of one less, and the meadow loses 0.5 dB
+constexpr float kMarginPx = 1.5f;  // pixels have a width; with half a pixel less the meadow loses 0.5 dB
 
 // Opaque samples that continue from pixel to pixel are a sheet, of any shape. A sample behind it, at pixel p
 // and radius c, is seen past the sheet's end at pixel q and radius n if |q - p| <= c - n: from c = n + |q -
@@ -82,7 +82,8 @@ private:
     }
     // Takes distances from the pixels before (x, y), for a sweep in this direction.
     void relax(int x, int y, int sense) {
-        constexpr float kSide = 0.918f, kDiagonal = 1.316f;  // never more than the distance
+        // Chamfer weights that never exceed the true distance.
+        constexpr float kSide = 0.918f, kDiagonal = 1.316f;
         for_opaque(x, y, [&](std::size_t k) {
             for (const auto& [dx, dy] : {std::pair{-1, 0}, {-1, -1}, {0, -1}, {1, -1}}) {
                 if (!contains(x + sense * dx, y + sense * dy)) continue;
@@ -95,7 +96,7 @@ private:
 
     const CocSamples& all_;
     float per_px_;
-    std::vector<float> seen_from_;  // of each opaque sample: what lies behind it is seen from this radius on
+    std::vector<float> seen_from_;  // per opaque sample: samples behind it are visible from this radius on
 };
 
 }  // namespace

@@ -27,8 +27,8 @@ struct Fronts {
         return false;
     }
 
-    // Around (x, y), of the surface at this radius: from its pixels that touch no silhouette; of a thin
-    // thing, from all of them as they differ from the plate.
+    // Colour of the surface with this radius around (x, y): from its pixels that touch no silhouette. A
+    // thin object has none; then all of its pixels count, weighted by their difference from the plate.
     Guess colour(int x, int y, float radius_px) const {
         constexpr int kReach = 3;
         const Rect window =
@@ -92,7 +92,8 @@ void unmix_before_plate(Mixtures& mixtures, const LitPicture& picture, View<cons
             if (!at || is_before_plate(at->far_coc_px, plate.coc_px(x, y))) continue;
             Mixture& m = *at;
             m.far_light = {};
-            if (const Rgba whole = picture.colour(x, y); whole.a < kOpaque) {  // nothing behind is mixed in
+            // No background is mixed into this pixel.
+            if (const Rgba whole = picture.colour(x, y); whole.a < kOpaque) {
                 m.near_colour = whole, m.near_share = whole.a;
                 continue;
             }
@@ -100,7 +101,7 @@ void unmix_before_plate(Mixtures& mixtures, const LitPicture& picture, View<cons
             if (front.touch(x, y, m.near_coc_px))
                 m.near_share = share_before(c, front.colour(x, y, m.near_coc_px), behind, m.share_by_shape);
             else
-                m.near_share = 0, m.lights_near = false;  // the plate holds both surfaces
+                m.near_share = 0, m.lights_near = false;  // both surfaces are part of the plate
             m.near_colour = light_only(c - (1 - m.near_share) * behind);
             if (m.lights_near) m.near_colour += picture.colour(x, y) - c;
         }

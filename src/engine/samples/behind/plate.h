@@ -26,7 +26,7 @@ inline bool is_before_plate(float coc_px, float plate_px) {
     return laws::is_in_front(coc_px, plate_px, laws::kConnected.step_px);
 }
 
-// Takes those silhouettes apart anew behind which the plate lies, whose colour is known.
+// Separates again the silhouettes in front of the plate, now that the plate gives the background's colour.
 void unmix_before_plate(Mixtures& mixtures, const LitPicture& picture, View<const float> coc_px,
                         const CleanPlate& plate, Workers& workers);
 

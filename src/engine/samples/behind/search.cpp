@@ -94,7 +94,8 @@ std::array<Found, kHits> SurfaceSearch::look(const Start& from, std::size_t k) c
         const unsigned u = unsigned(x + step->x), v = unsigned(y + step->y);
         if (u >= width || v >= height) break;
         const Block& block = blocks_(int(u / unsigned(kBlock)), int(v / unsigned(kBlock)));
-        // (Of a block all of which lies in front, no pixel is looked at: their plane fills no cache.)
+        // (A block that lies in front completely is skipped without reading its pixels, which saves
+        // cache.)
         const float c = block.farthest > behind ? start[step->offset] : behind;
         if (c > behind && c > own + step->t * own_per_px + completion_model.step_px) {
             hits[n++] = {true, int(u), int(v), c, step->t};

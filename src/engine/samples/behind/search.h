@@ -10,10 +10,10 @@
 
 namespace petzval::engine {
 
-constexpr int kDirections = 16;  // even: opposite directions are paired
+constexpr int kDirections = 16;  // an even number, because opposite directions form pairs
 
 // The end of a search: a pixel of the surface that was met.
-constexpr int kHits = 2;  // per direction
+constexpr int kHits = 2;  // hits kept in each direction
 struct Found {
     bool found = false;
     int x = 0, y = 0;
@@ -47,20 +47,21 @@ public:
     Direction direction(std::size_t k) const { return paths_[k].direction; }
 
 private:
-    static constexpr int kBlock = 4;  // pixels on a side share one distance to the nearest silhouette
+    // Side of a block in pixels; its pixels share one distance to the nearest silhouette.
+    static constexpr int kBlock = 4;
     struct Step {
-        float t;  // distance, px
+        float t;  // distance of the step, px
         int x, y;
-        std::ptrdiff_t offset;  // in the plane of clean radii
+        std::ptrdiff_t offset;  // offset of the pixel in the plane of clean radii
     };
     struct Path {
         Direction direction;
         std::vector<Step> steps;
-        std::vector<std::size_t> at_distance;  // the first step at least so many pixels away
+        std::vector<std::size_t> at_distance;  // first step that is at least this many pixels away
     };
     struct Block {
-        float farthest = -1e30f;  // known radius in it
-        int free = 1 << 20;       // pixels one can go from anywhere in it without meeting a silhouette
+        float farthest = -1e30f;  // farthest known radius in the block
+        int free = 1 << 20;       // from any pixel of the block, this many pixels hold no silhouette
     };
     void measure_distances(const Mixtures& mixtures, Workers& workers);
     void lay_paths(float longest_px);

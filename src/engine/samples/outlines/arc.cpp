@@ -6,7 +6,7 @@
 namespace petzval::engine {
 namespace {
 
-constexpr float kStraight = 1e-6f;  // 1/px; less is none
+constexpr float kStraight = 1e-6f;  // curvature in 1/px; smaller values count as straight
 
 // The line through the middle of points along which they lie.
 struct Axis {
@@ -63,7 +63,7 @@ FittedArc arc_of(const Equation& is, const Axis& axis, std::span<const PlanePoin
     const double gu = is.to_u - is.bend * u, gv = is.to_v - is.bend * v;
     const double gradient = std::max(1e-9, std::hypot(gu, gv));
     const double distance = 2 * off / (1 + std::sqrt(std::max(0.0, 1 - 2 * is.bend * off)));
-    // Across it, to the right of where it goes.
+    // The direction across the curve, to its right.
     const double across_x = (gu * axis.along_x - gv * axis.along_y) / gradient,
                  across_y = (gu * axis.along_y + gv * axis.along_x) / gradient;
     FittedArc fitted{};

@@ -11,13 +11,14 @@ struct PlanePoint {
 
 struct Arc {
     PlanePoint start;
-    float into_x, into_y;  // from there; of length 1
-    float curvature;       // 1/px; > 0: it turns to its right
+    float into_x, into_y;  // direction at the start, of length 1
+    float curvature;       // 1/px; positive if the arc turns to its right
 
     // The point and direction of the arc after along_px pixels.
     PlanePoint at(float along_px) const;
     Arc from(float along_px) const;
-    // > 0 to its right, and next to it how far, px.
+    // Positive if the point lies to the right of the arc; for points close to the arc, their distance in
+    // px.
     float right_of(PlanePoint p) const {
         const float x = p.x - start.x, y = p.y - start.y;
         return y * into_x - x * into_y - 0.5f * curvature * (x * x + y * y);
@@ -31,13 +32,13 @@ struct Arc {
 };
 
 struct FittedArc {
-    Arc arc;                  // it starts next to `start` and goes to where `into` points, rather than back
-    float mean_px, worst_px;  // root of the mean square, and largest, of how far points are off
+    Arc arc;                  // starts next to `start` and runs in the direction of `into`
+    float mean_px, worst_px;  // distances of the points from the arc: root mean square, and largest
 };
-// Least squares. Requires: two points at least that differ.
+// The line with the least sum of squared distances. Requires at least two different points.
 FittedArc fitted_line(std::span<const PlanePoint> points, PlanePoint start, PlanePoint into);
-// The same of a circle's equation, whose gradient is taken to be 1 across the points: of short arcs that is
-// nearly their distance. Four points at least.
+// The arc with the least sum of squares of a circle's equation, scaled to gradient 1 across the points;
+// for short arcs that is nearly the distance. Requires at least four points.
 FittedArc fitted_arc(std::span<const PlanePoint> points, PlanePoint start, PlanePoint into);
 
 }  // namespace petzval::engine

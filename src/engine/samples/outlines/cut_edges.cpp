@@ -13,8 +13,8 @@
 namespace petzval::engine {
 namespace {
 
-constexpr int kReach = 6;       // largest edge_reach_px
-constexpr int kLongestPx = 60;  // it goes on for; strips of a frame hold more around them
+constexpr int kReach = 6;       // upper limit of edge_reach_px
+constexpr int kLongestPx = 60;  // longest continuation of an edge; strips of a frame overlap by more
 constexpr int kCell = 16;       // pixels on a side
 
 float rise(float value, float from, float to) { return std::clamp((value - from) / (to - from), 0.0f, 1.0f); }
@@ -33,7 +33,8 @@ public:
         if (coherence < model.edge_coherence) return {};
         const float angle = 0.5f * std::atan2(2 * c.xy, c.xx - c.yy);
         const float nx = std::cos(angle), ny = std::sin(angle);
-        const float dx = -c.at_x / c.sum, dy = -c.at_y / c.sum;  // from its middle to here
+        // Offset from the pixel's middle to the edge.
+        const float dx = -c.at_x / c.sum, dy = -c.at_y / c.sum;
         const float off = dx * nx + dy * ny;
         const float spread = (nx * nx * c.at_xx + 2 * nx * ny * c.at_xy + ny * ny * c.at_yy) / c.sum;
         if (std::abs(off) > model.edge_off_px || spread - off * off > model.edge_spread_px2) return {};

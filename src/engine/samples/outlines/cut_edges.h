@@ -21,12 +21,14 @@ public:
     // Weight of a colour visible at `shown`, of a surface at coc_px, for a hidden point: 1 if nothing stands
     // between them, kCut behind a continuing edge.
     float passes(Point shown, Point hidden, float coc_px) const;
-    static constexpr float kCut = 1e-3f;  // not 0: where all is behind some edge all counts alike
+    // Not 0, so that weights remain if all colours lie behind some edge.
+    static constexpr float kCut = 1e-3f;
 
     struct Edge {
-        Point at;                // where it is cut: so far from the middle of this pixel
-        float off_x, off_y;      // (whole pixels apart, so that places in strips of a frame round alike)
-        float into_x, into_y;    // where it goes on; of length 1
+        Point at;  // pixel where the edge is cut
+        // Offset of the cut from its middle; kept apart, so that strips of a frame round alike.
+        float off_x, off_y;
+        float into_x, into_y;    // direction of the continuation, of length 1
         float coc_px, strength;  // 0…1
     };
 
@@ -35,7 +37,7 @@ private:
 
     std::vector<Edge> edges_;
     int columns_ = 0;
-    std::vector<std::vector<int>> near_;  // numbers of edges that may reach into each cell
+    std::vector<std::vector<int>> near_;  // per cell: numbers of the edges that may reach into it
 };
 
 }  // namespace petzval::engine

@@ -64,7 +64,7 @@ public:
             const int other = joints[i].other;
             if (other < 0 || joints[std::size_t(other)].other != int(i))
                 go_on(ends_[i], outlines);
-            else if (ends_[std::size_t(other)].told_by == 0)  // of a piece too short to go on by itself
+            else if (ends_[std::size_t(other)].told_by == 0)  // too short to continue by itself
                 add(ends_[i], joints[i].arc, hidden_for(ends_[i], {joints[i].arc}), outlines);
             else if (ends_[i].told_by > 0 && other > int(i))
                 add(ends_[i], joints[i].arc, joints[i].length_px + completion_model.outline_end_px, outlines);
@@ -77,7 +77,7 @@ private:
         int other = -1;
         Arc arc{};
         float length_px = 0;
-        bool sure = false;  // both ends tell where they go
+        bool sure = false;  // true if both ends know their direction
 
         bool better_than(const Joint& o) const {
             return o.other < 0 || (sure != o.sure ? sure : length_px < o.length_px);
@@ -166,8 +166,8 @@ private:
         return {-p.x / length, -p.y / length};
     }
 
-    // Length for which a nearer surface hides it; if it is visible again as expected, and hidden again, from
-    // there on. sure: its course is certain.
+    // Length over which a nearer surface hides the outline. If the outline becomes visible again as
+    // expected, the length counts from the place where it is hidden again. sure: its course is certain.
     float hidden_for(const OutlineEnd& end, const Course& course, bool sure = false) const {
         const int most_px =
             int(sure ? completion_model.outline_farthest_px : completion_model.outline_longest_px);
@@ -198,7 +198,7 @@ private:
                           end.coc_px);
     }
 
-    // An end that belongs to no other.
+    // Continues an end that has no partner.
     void go_on(const OutlineEnd& end, std::vector<Outline>& outlines) const {
         if (end.told_by == 0) return;
         const Course course{end.arc, end.arc.curvature == 0 ? kForever : float(end.told_by)};
@@ -207,7 +207,7 @@ private:
         add(end, end.arc, std::min(length, course.bent_px), outlines);
         if (length > course.bent_px) add(end, course.rest(), length - course.bent_px, outlines);
     }
-    // Adds the points at which it will be queried.
+    // Adds an outline with its middle and the distance from there within which it decides.
     static void add(const OutlineEnd& end, const Arc& arc, float length, std::vector<Outline>& outlines) {
         constexpr int kLeastPx = 16, kAroundPx = 8;
         const float half = 0.5f * length;
@@ -275,7 +275,7 @@ HiddenOutlines::Open HiddenOutlines::open(PixelAt shown, PixelAt hidden, float c
     if (outlines_.empty()) return open;
     for (const int i : near_[std::size_t(hidden.y / kCell * columns_ + hidden.x / kCell)]) {
         const Outline& o = outlines_[std::size_t(i)];
-        // (Told from here and not from the cell, so that strips of a frame agree.)
+        // (Distance from the point, not from the cell, so that strips of a frame agree.)
         if (std::max(std::abs(hidden.x - o.middle.x), std::abs(hidden.y - o.middle.y)) > o.around_px)
             continue;
         const bool own = one_surface(o.coc_px, coc_px);

@@ -10,7 +10,7 @@
 
 namespace petzval::engine {
 
-// Its answer at a place depends on nothing farther away than this, px.
+// Pixels farther away than this, in px, never change an answer.
 constexpr int kOutlineReachPx = 160;
 
 // Outlines are found from radii alone. Where three surfaces meet in a picture, the nearest hides the
@@ -21,7 +21,7 @@ constexpr int kOutlineReachPx = 160;
 class HiddenOutlines {
 public:
     HiddenOutlines() = default;
-    // coc_px: of each pixel, as the picture states it.
+    // coc_px: radius of each pixel, as the picture states it.
     HiddenOutlines(View<const float> coc_px, Workers& workers);
 
     // For a surface at coc_px visible at `shown`: whether it continues to a hidden point, 1, or 0 beyond its
@@ -37,12 +37,12 @@ public:
     float distance_px(PixelAt hidden) const;
 
     struct Outline {
-        PixelAt at;  // places count from this corner of pixels: that of (x, y) that is nearest to (0, 0)
+        PixelAt at;  // origin of the arc's coordinates: the corner of pixel (x, y) nearest to (0, 0)
         Arc arc;
-        bool same_is_left;  // of the arc: its surface
+        bool same_is_left;  // true if the outline's own surface lies to the left of the arc
         float coc_px, length_px;
-        PixelAt middle;  // of the arc
-        int around_px;   // columns and rows from there within which it tells what is hidden
+        PixelAt middle;  // middle of the arc
+        int around_px;   // columns and rows from there within which the outline decides
     };
     const std::vector<Outline>& outlines() const { return outlines_; }
 

@@ -25,7 +25,7 @@ private:
     float tent(float x, float y) const;
     float tent_along() const;
 
-    float near_[2 * kRadius + 1][2 * kRadius + 1];  // 1: it shows the nearer surface
+    float near_[2 * kRadius + 1][2 * kRadius + 1];  // 1: the pixel shows the nearer surface
 };
 
 }  // namespace petzval::engine

@@ -8,7 +8,8 @@
 namespace petzval::engine {
 namespace {
 
-constexpr std::array<PixelAt, 4> kSteps{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};  // each to the right of the last
+// Each turns right from the one before.
+constexpr std::array<PixelAt, 4> kSteps{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
 
 struct Beside {
     PixelAt right, left;
@@ -89,7 +90,8 @@ bool tells(const FittedArc& fitted) {
 }  // namespace
 
 DepthSide depth_side(float coc, float surface) {
-    // Less than one_surface() takes: where pixels touch, a step is an outline.
+    // The step is smaller than that of one_surface(): between touching pixels, a smaller step is an
+    // outline already.
     const CompletionModel& model = completion_model;
     if (std::abs(coc - surface) < model.step_px + model.step_share * std::abs(coc + surface))
         return DepthSide::Same;

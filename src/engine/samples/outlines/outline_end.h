@@ -21,22 +21,22 @@ DepthSide depth_side(float coc_px, float surface_px);
 // Nothing is known beyond the picture: it counts as nearer.
 DepthSide depth_side(View<const float> coc_px, PixelAt pixel, float surface_px);
 
-constexpr int kTracedPx = 32;      // of an outline, at most, tell how it goes on
-constexpr int kLeastTracedPx = 5;  // tell anything alone
-constexpr int kLeastJoinedPx = 2;  // to where another end points
+constexpr int kTracedPx = 32;      // longest part of an outline that decides its continuation
+constexpr int kLeastTracedPx = 5;  // shortest part that decides without a partner
+constexpr int kLeastJoinedPx = 2;  // shortest part that joins an end pointing at it
 
 struct OutlineEnd {
     PixelAt at;                                // a corner of pixels: that of (x, y) that is nearest to (0, 0)
-    float coc_px;                              // of its surface
-    bool same_is_left;                         // of where it goes on: its surface
-    Arc arc;                                   // how it goes on; places count from `at`
-    int told_by;                               // so many of what was traced; 0: nothing tells
-    std::array<PlanePoint, kTracedPx> traced;  // middles of pixels' sides, from where it is hidden on
+    float coc_px;                              // radius of the outline's surface
+    bool same_is_left;                         // true if that surface lies to the left of the continuation
+    Arc arc;                                   // continuation; its coordinates count from `at`
+    int told_by;                               // number of traced points that determine `arc`; 0: none do
+    std::array<PlanePoint, kTracedPx> traced;  // middles of pixel sides, from the hidden end backwards
     int traced_px;
 };
 
-// The outline that is hidden from the corner (x, y) of four pixels on, at 1…width-1 and 1…height-1: where
-// three surfaces meet, of the middle one before the farthest.
+// The outline that is hidden from the corner (x, y) of four pixels on, if three surfaces meet there: the
+// outline between the middle and the farthest one. x is 1…width-1, y is 1…height-1.
 std::optional<OutlineEnd> outline_end(View<const float> coc_px, int x, int y);
 
 // Fits a line to the points, or an arc if the line does not explain them within the precision of pixel sides.

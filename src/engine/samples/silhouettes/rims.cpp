@@ -11,16 +11,16 @@ namespace petzval::engine {
 namespace {
 
 constexpr float kBrighter = 2;
-constexpr float kMostShare = 0.75f;  // of a pixel whose middle shows the farther surface
-constexpr int kCleanReach = 3;       // pixels; with those beside them, kRimReachPx
+constexpr float kMostShare = 0.75f;  // largest near share of a pixel whose middle shows the farther surface
+constexpr int kCleanReach = 3;       // in pixels; with their neighbours it makes kRimReachPx
 static_assert(kRimReachPx == kCleanReach + 1);
 
 float light_product(Rgba a, Rgba b) { return a.r * b.r + a.g * b.g + a.b * b.b; }
 
-// Nearer pixels that touch a rim.
+// Pixels of the nearer surface that touch a rim.
 struct Nearer {
-    Rgba colour;                      // the mean
-    float share = 0;                  // of the pixel, by the shape: a tent over 3 x 3 pixels
+    Rgba colour;                      // mean colour
+    float share = 0;                  // share of the rim's pixel by the shape: a tent over 3 x 3 pixels
     float brightest = 0, coc_px = 0;  // of the brightest pixel
 };
 
@@ -55,7 +55,7 @@ public:
         if (clean.empty()) return {};
         const Guess far = clean.guess();
         const Decision decision = bright ? of_bright(own, nearer, far) : of_any(x, y, nearer, far);
-        constexpr float kLeastShare = 0.02f;  // but of bright light little is much
+        constexpr float kLeastShare = 0.02f;  // smaller shares are ignored, except those of bright light
         if (!bright && decision.share < kLeastShare) return {};
         return rim(x, y, nearer, kept_bright(decision, comparable(judged_(x, y)), far.colour),
                    is_layer ? clean_of_layer.guess().colour : far.colour);

@@ -18,8 +18,8 @@ constexpr float kUnlikePx = 1.5f;
 
 // Relation of a pixel to its neighbours: whether surfaces with another blur touch it.
 enum class Touched : unsigned char {
-    Clean,      // none
-    ByFarther,  // by farther ones alone
+    Clean,      // no surface with another blur touches it
+    ByFarther,  // only farther surfaces do
     ByNearer,
 };
 Image<Touched> find_touched(View<const float> coc_px, Workers& workers);
@@ -27,7 +27,7 @@ Image<Touched> find_touched(View<const float> coc_px, Workers& workers);
 // A pixel that is touched by a nearer surface:
 //     colour = near + (1 - share) far.
 struct Rim {
-    float share = 0;  // of the pixel that the nearer surface covers
+    float share = 0;  // fraction of the pixel that the nearer surface covers
     float near_coc_px = 0;
     Rgba far;
     // The nearer surface's part of the pixel's colour, premultiplied by the share.

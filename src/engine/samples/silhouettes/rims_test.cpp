@@ -75,7 +75,7 @@ TEST(Rims, OfAWireAreTakenApartByShapeAndColour) {
     }
 }
 
-// A pixel brighter than all around is no mixture: what is behind keeps its light.
+// A pixel brighter than all around is not a mixture: what is behind keeps its light.
 TEST(Rims, MakeNothingDarkerOrBrighterThanItWas) {
     Picture colour(24, 24, Rgba{0.2f, 0.2f, 0.2f, 1});
     Plane coc_px(24, 24, 0);

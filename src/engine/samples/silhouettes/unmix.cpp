@@ -30,7 +30,7 @@ bool touches_silhouette(View<const unsigned char> connected, int x, int y) {
            (at(x, y - 1) & at(x, y + 1) & kHorizontal) != kHorizontal;
 }
 
-// The same for a whole row at once, where most pixels touch none.
+// The same as touches_silhouette(), for a whole row at once; most pixels touch no silhouette.
 void find_touching(View<const unsigned char> connected, int y, View<unsigned char> touching) {
     const int width = connected.width();
     if (y == 0 || y + 1 == connected.height() || width < 3) {
@@ -61,7 +61,7 @@ bool lit_around(const LitPicture& picture, int x, int y) {
 // The two surfaces that meet at a silhouette's pixel, from its neighbourhood.
 struct Sides {
     Pool near_clean, far_clean, far_mixed;
-    float near_coc = 0, far_coc = 0;  // of the closest pixel of that side
+    float near_coc = 0, far_coc = 0;  // radius of the closest pixel on that side
     float near_closest = 1e9f, far_closest = 1e9f;
     float near_share_by_shape = 0;
 };
@@ -186,7 +186,7 @@ LampsBehind find_lamps(const LitPicture& picture, View<const float> coc, View<co
                 far = light, far_coc = coc(u, v);
             }
         }
-    // One behind may light no pixel but those of the edge that it shows past.
+    // A lamp behind may light only the pixels of the edge that it shines past.
     const float sure = share_of_surface(nearer);
     far = std::max(far, completion_model.unseen_lamp * (1 - sure) * near);
     near *= sure;
@@ -233,7 +233,7 @@ Mixture taken_apart(const LitPicture& picture, View<const float> coc, View<const
     m.near_share = e.near_share, m.far_colour = e.far_colour;
     const float far_share = 1 - m.near_share;
     m.near_colour = light_only(c - far_share * m.far_colour);
-    // The rest of a dark pixel is all that either surface may have.
+    // In a dark pixel neither surface can have more light than the rest.
     if (far_share > 0) {
         const Rgba left = light_only((c - m.near_colour) * (1 / far_share));
         m.far_colour = {left.r, left.g, left.b, far.colour.a};
@@ -244,7 +244,7 @@ Mixture taken_apart(const LitPicture& picture, View<const float> coc, View<const
     return m;
 }
 
-// The visible colour of hidden samples without an occluder.
+// Colour of hidden samples composited over each other, without their occluder.
 Rgba composited(std::span<const Hidden> hidden) {
     Rgba sum;
     float open = 1;

@@ -9,7 +9,7 @@
 namespace petzval::engine {
 namespace {
 
-constexpr int kScale = 2;  // pixels on a side of one of details
+constexpr int kScale = 2;  // side, in pixels, of one pixel of details
 
 }  // namespace
 
@@ -25,7 +25,7 @@ HiddenTextures::HiddenTextures(const KnownSurfaces& known, const Mixtures& mixtu
     for (int y = 0; y < all.height(); ++y)
         mixtures.for_each_in_row(y, [&](int x, const Mixture& m) {
             int& tile = tile_at_(x / kTile, y / kTile);
-            // (What is sharp hides nothing that is as sharp from a lens.)
+            // (A sharp occluder hides nothing that is equally sharp from any point of the lens.)
             if (tile >= 0 || m.near_coc_px > -completion_model.texture_sharp_px ||
                 std::abs(m.far_coc_px) >= completion_model.texture_sharp_px)
                 return;
@@ -75,7 +75,7 @@ void HiddenTextures::measure_means(Workers& workers) {
     });
 }
 
-// Around the middle of a pixel that shows something sharp.
+// Mean light around the middle of a pixel that shows a sharp surface.
 Rgba HiddenTextures::mean(float x, float y) const {
     const float u = std::clamp((x + 0.5f) / kBlock - 0.5f, 0.0f, float(means_.width() - 1));
     const float v = std::clamp((y + 0.5f) / kBlock - 0.5f, 0.0f, float(means_.height() - 1));
@@ -100,7 +100,7 @@ void HiddenTextures::measure_details(Workers& workers) {
     });
 }
 
-// Mean of the sharp ones of 2x2 pixels.
+// Mean of the sharp pixels among 2 x 2.
 float HiddenTextures::detail(int x, int y) const {
     const Rgba sum =
         known_.colour(x, y) + known_.colour(x + 1, y) + known_.colour(x, y + 1) + known_.colour(x + 1, y + 1);

@@ -45,12 +45,12 @@ public:
 
         const HiddenTextures& textures_;
         int x_, y_;
-        std::array<Moved, 4> found_;  // of tiles with the same last digits
+        std::array<Moved, 4> found_;  // one entry for all tiles with the same last digits
     };
 
 private:
-    static constexpr int kTile = 32;  // pixels on a side; silhouettes in it share a texture
-    static constexpr int kBlock = 8;  // pixels on a side that have one mean
+    static constexpr int kTile = 32;  // side of a tile in pixels; its silhouettes share a texture
+    static constexpr int kBlock = 8;  // side of a block in pixels; it has one mean
 
     // The sum of the sharp pixels of a block, or of some blocks.
     struct Sum {
@@ -84,10 +84,10 @@ private:
     void move_grain(int x, int y, Moved& moved) const;
 
     const KnownSurfaces& known_;
-    int farthest_, around_;  // offset; what is held against others around a tile: pixels of details
-    Image<int> tile_at_;     // of tiles_; -1: none
+    int farthest_, around_;  // in pixels of details: largest offset; width compared around a tile
+    Image<int> tile_at_;     // number in tiles_; -1: none
     std::vector<Tile> tiles_;
-    Image<Sum> means_;  // of 3x3 blocks, of what tiles look at
+    Image<Sum> means_;  // means of 3 x 3 blocks, for the blocks that tiles read
     static constexpr float kUnknown = -2;
     Plane details_;  // as of Details; only while tiles are measured
 };

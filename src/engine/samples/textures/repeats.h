@@ -17,7 +17,7 @@ struct Details {
     Details(int inner, int farthest);
 
     int inner, farthest, side;
-    int stride;                        // of rows; what is beyond `side` is unknown
+    int stride;                        // pixels from row to row; pixels beyond `side` are unknown
     std::vector<float> values, known;  // known: 1 or 0
 
     std::size_t at(int x, int y) const { return std::size_t(y) * std::size_t(stride) + std::size_t(x); }
@@ -32,7 +32,7 @@ struct Pairs {
 };
 
 struct Texture {
-    static constexpr int kMost = 24;  // one of each direction and distance
+    static constexpr int kMost = 24;  // at most one per direction and distance
     struct Offset {
         float x, y;   // pixels of details
         float alike;  // 0…1
