@@ -15,7 +15,7 @@ in `gather`; of a blur 5 for each tap of each cell. A pixel of a small picture s
 Of engine `realtime` all passes: the bytes that its images and buffers hold, each once for each pass that reads or writes
 it, as the pass itself counts them (src/device/vulkan/realtime/pass.cpp); hosts have colours of 16 bits and save 8 bytes a
 pixel for each of the four times that these cross memory.
-`glare` is no engine: bloom and veil with the quick star, then with the final one, over the picture as it is, at any radius.
+`glare` is not an engine: bloom and veil with the quick star, then with the final one, over the picture as it is, at any radius.
 `develop` is none either: light to codes of 8 bits, at any radius.
 Not in it: what is looked at and not hit, waiting, copies from and to the host. How near a GPU comes is not known yet.
 """

@@ -448,7 +448,7 @@ void report(const Host& host, const Given& given, const Drawing& d, const Drawn&
     std::printf("on %s: sprites %.2f ms, composite %.2f ms%s\n", properties.deviceName, drawn.sprites_ms,
                 drawn.composite_ms,
                 properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU
-                    ? " (a software driver: that is no speed of a GPU)"
+                    ? " (a software driver: that is not a speed of a GPU)"
                     : "");
     std::printf("against engine scatter: %.2f dB linear, %.2f sRGB, %.2f log, light %.4f\n", c.psnr_lin,
                 c.psnr_srgb, c.psnr_log, c.energy_ratio);

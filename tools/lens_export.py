@@ -29,7 +29,7 @@ def read(path):
             raise Refused(f"{path}: units are {data['units']}; mm are needed")
         surfaces = [_surface(s, f"{path}: surface {i + 1}") for i, s in enumerate(data["surfaces"])]
     except (OSError, ValueError, KeyError) as why:
-        raise Refused(f"{path} is no prescription: {why}") from None
+        raise Refused(f"{path} is not a prescription: {why}") from None
     if sum(s[5] for s in surfaces) != 1:
         raise Refused(f"{path}: one stop is needed")
     return surfaces

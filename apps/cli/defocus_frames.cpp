@@ -43,9 +43,9 @@ void TrackFlags::add_to(Verb& verb) {
                "focus_y (pixels), fstop, focal_length (mm), and look fields such as lens.blades",
                file)
         .values("--rack", "FRAME:X,Y",
-                "a focus pull: at each key a pixel that is sharp, such as 1001:80,45, or a distance, such as "
-                "1024:3.2m; "
-                "between keys the focus moves evenly in dioptres",
+                "a focus pull: frames with the pixel to focus on, such as 1001:80,45, or with a distance, "
+                "such as "
+                "1024:3.2m; between them the focus moves evenly in dioptres",
                 rack)
         .value("--focus-speed", "DIOPTRES", "limit the focus change of a track, in dioptres per frame",
                parse_positive, focus_speed)

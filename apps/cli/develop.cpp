@@ -129,7 +129,7 @@ void add_develop(Verb& program, Action& chosen) {
     flags->ocio.add_to(verb);
     FlagGroup(verb, "Display picture (PNG)")
         .value("--bits", "N", "8 (default) or 16 per channel", parse_bits, flags->develop.bits)
-        .on("--no-dither", "round without the noise that hides bands", flags->no_dither);
+        .on("--no-dither", "round without dither, the noise that hides bands", flags->no_dither);
     flags->run.add_threads_to(verb);
     flags->run.add_log_to(verb, false);
     when_typed(verb, [flags, &verb, &chosen] {

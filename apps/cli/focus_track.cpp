@@ -83,7 +83,8 @@ void add_focus_track(Verb& program, Action& chosen) {
                 "pixel of the display window to keep sharp in a frame, such as 1001:960,540; interpolated "
                 "between frames. Without a frame: in all frames",
                 flags->at)
-        .value("--within", "PX", "the median depth of the pixels so many columns and rows around (default 2)",
+        .value("--within", "PX",
+               "use the median depth of all pixels within this many columns and rows (default 2)",
                parse_index, flags->within_px)
         .value("--smooth", "FRAMES",
                "smooth in dioptres by a Gaussian of this standard deviation (default 2; 0: as measured)",

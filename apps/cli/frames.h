@@ -34,7 +34,7 @@ struct FramesFailed {
     int exit_code = 4;
 };
 
-// Throw UsageError for a name that is no pattern and looks like one.
+// Throw UsageError for a name that is not a pattern and looks like one.
 bool has_pattern(const std::string& path);
 // The path of a frame; one without a place for a number as it is.
 std::string at_frame(const std::string& path, int frame);

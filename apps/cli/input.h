@@ -16,7 +16,7 @@
 
 namespace petzval::cli {
 
-// A source that flags fill; empty means "find out and say so".
+// A source that flags fill; empty means: detect and report.
 struct InputFlags : ShotSource {
     std::optional<DepthKind> depth_kind;
     std::optional<Interval> depth_range;

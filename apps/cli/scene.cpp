@@ -56,12 +56,12 @@ const SceneSummary* find_scene(const std::string& name) {
 void MakeFlags::add_to(Verb& verb) {
     FlagGroup(verb, "Scene")
         .argument("NAME", "one of petzval scene list, or a .gltf or .glb file", name)
-        .value("--width", "PX", "width of the picture (default 960); one alone keeps 16:9", parse_size_px,
-               width)
+        .value("--width", "PX", "width of the picture (default 960); width or height alone keeps 16:9",
+               parse_size_px, width)
         .value("--height", "PX", "height of the picture (default 540)", parse_size_px, height)
         .value("--overscan", "PX",
-               "render so many pixels more on every side, for light that the blur brings in (default 0); the "
-               "truth keeps to the frame",
+               "render this many extra pixels on every side, for light that the blur spreads into the frame "
+               "(default 0); the truth covers the frame alone",
                parse_index, scene.overscan_px)
         .value("--frame", "N", "frame of a moving scene (default 0)", parse_index, frame)
         .value("--frames", "LIST",
@@ -72,30 +72,34 @@ void MakeFlags::add_to(Verb& verb) {
         .value("--pinhole-samples", "N", "samples per pixel of the sharp picture (default 64)", parse_count,
                scene.samples)
         .value("--seed", "N",
-               "start of all random choices (default 1); of the scene random, also which scene", parse_seed,
-               scene.seed)
+               "seed of all random choices (default 1); for the scene random, also of the scene itself",
+               parse_seed, scene.seed)
         .value("--scene-camera", "NAME",
-               "of a glTF file's cameras that of this name, or number from 1 (default: the first)",
-               parse_text, scene.own_camera)
+               "camera of a glTF file, by name or by number from 1 (default: the first)", parse_text,
+               scene.own_camera)
         .value("--camera-at", "X,Y,Z",
-               "where the camera stands in the scene's world, m (default: the scene's)", parse_place,
+               "position of the camera in the scene's world, m (default: the scene's)", parse_place,
                camera_at)
         .value("--look-at", "X,Y,Z",
                "the point of the world in the middle of the picture (default: the scene's)", parse_place,
                look_at)
-        .choice("--lit-in",
-                "codes: as programs did that took display codes for light; the picture then holds codes, to "
-                "be shown with --transfer linear --tone none (default light)",
-                NameTable<bool>{{"light", false}, {"codes", true}}, scene.lit_in_codes)
+        .choice(
+            "--lit-in",
+            "light (default), or codes: light the scene in display codes, as programs that ignore gamma do; "
+            "show that picture with --transfer linear --tone none",
+            NameTable<bool>{{"light", false}, {"codes", true}}, scene.lit_in_codes)
         .value("--depth-blur", "PX",
-               "depth as networks guess it: 1/depth blurred by a Gaussian of this standard deviation; truth "
+               "depth as neural networks estimate it: 1/depth blurred by a Gaussian of this standard "
+               "deviation; truth "
                "and layers stay exact",
                parse_not_negative, scene.depth_blur_px)
-        .value("--depth-bits", "N", "1/depth in 2^N even steps, 8 or 16", parse_bits, scene.depth_bits);
+        .value("--depth-bits", "N", "round 1/depth to 2^N even steps; N is 8 or 16", parse_bits,
+               scene.depth_bits);
     camera.add_to(verb, "scene");
     FlagGroup(verb, "Output")
         .writes("-o,--output", "FILE.exr", "sharp picture, planar Z in metres and camera numbers", output)
-        .writes("--truth", "FILE.exr", "also what the lens of the same camera records", truth)
+        .writes("--truth", "FILE.exr",
+                "also the ray-traced truth: the picture that this camera's lens records", truth)
         .writes("--layers", "FILE.exr", "also write the hidden surfaces, as a deep EXR for defocus --plate",
                 layers);
     FlagGroup(verb, "Output")

@@ -32,17 +32,18 @@ struct PointsFlags {
 void PointsFlags::add_to(Verb& verb) {
     FlagGroup(verb, "Points")
         .argument("NAME", "glints, city or drops", name)
-        .value("--width", "PX", "width of the picture they are for (default 960)", parse_size_px,
+        .value("--width", "PX", "width of the picture that gets the lights (default 960)", parse_size_px,
                settings.width)
-        .value("--height", "PX", "its height (default 540)", parse_size_px, settings.height)
-        .value("--focal-length", "MM", "of its camera (default 50mm)", parse_length_mm,
+        .value("--height", "PX", "height of that picture (default 540)", parse_size_px, settings.height)
+        .value("--focal-length", "MM", "focal length of its camera (default 50mm)", parse_length_mm,
                settings.focal_length_mm)
-        .value("--sensor-width", "MM", "of its camera (default 36mm)", parse_length_mm,
+        .value("--sensor-width", "MM", "sensor width of its camera (default 36mm)", parse_length_mm,
                settings.sensor_width_mm)
-        .value("--horizon", "SHARE", "of the height, from the top, where the horizon lies (default 0.5)",
-               parse_number, horizon)
-        .value("--count", "N", "so many points; default: as many as suit the kind", parse_count, count)
-        .value("--seed", "N", "start of all random choices (default 1)", parse_seed, settings.seed);
+        .value("--horizon", "FRACTION",
+               "height of the horizon, as a fraction of the picture from the top (default 0.5)", parse_number,
+               horizon)
+        .value("--count", "N", "number of points (default: as suits the kind)", parse_count, count)
+        .value("--seed", "N", "seed of all random choices (default 1)", parse_seed, settings.seed);
     FlagGroup(verb, "Output").writes("-o,--output", "FILE.csv", "x, y, depth, r, g, b, size", output);
     overwrite.add_to(verb, false);
     run.add_json_to(verb);
@@ -99,7 +100,7 @@ Status make_file(const PointsFlags& flags) {
 }  // namespace
 
 void add_scene_points(Verb& scene, Action& chosen) {
-    Verb& verb = add_verb(scene, "points", "lights to draw as kernels: glitter on water, a city, drops",
+    Verb& verb = add_verb(scene, "points", "a file of lights for --points: glitter on water, a city, drops",
                           "petzval scene points city -o city.csv --focal-length 85mm\n"
                           "petzval defocus dusk.exr -o out.exr --engine sprites --points city.csv");
     auto flags = std::make_shared<PointsFlags>();

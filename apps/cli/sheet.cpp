@@ -97,13 +97,13 @@ void add_sheet(Verb& program, Action& chosen) {
     FlagGroup(verb, "Output")
         .writes("-o,--output", "FILE",
                 "a contact sheet (.png), or a video by ffmpeg (.mp4, .mov, .mkv, .webm)", flags->output)
-        .value("--columns", "N", "frames beside each other (default: about as many as below each other)",
-               parse_count, flags->columns)
+        .value("--columns", "N", "frames per row (default: about as many as rows)", parse_count,
+               flags->columns)
         .value(
             "--width", "PX",
             "width of a frame (default 320 on a sheet, 480 with --lenses, its own in a video, 1920 at most)",
             parse_size_px, flags->width_px)
-        .value("--rate", "FPS", "frames a second of a video (default 24)", parse_positive, flags->rate)
+        .value("--rate", "FPS", "frames per second of a video (default 24)", parse_positive, flags->rate)
         .on("--no-labels", "no frame numbers or lens names", flags->no_labels);
     flags->overwrite.add_to(verb, false);
     flags->develop.add_to(verb);

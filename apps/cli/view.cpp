@@ -184,7 +184,7 @@ Status open_window(const ViewFlags& flags) {
     if (has_pattern(flags.input.path)) {
         const auto there = FramePattern::find(flags.input.path).value()->frames_there();
         if (!there) return there.error();
-        if (there->empty()) return Error{ErrorCode::InvalidFile, flags.input.path + ": no frame is there"};
+        if (there->empty()) return Error{ErrorCode::InvalidFile, flags.input.path + ": no frame exists"};
         setup.frames = *there;
     }
     setup.scene = flags.scene;
@@ -263,7 +263,7 @@ void check_scene(ViewFlags& flags) {
         throw UsageError("--scene " + flags.scene + ": no such scene" + did_you_mean(flags.scene, known) +
                          "; petzval scene list names them");
     if (!is_gltf(flags.scene) && !flags.scene_camera.empty())
-        throw UsageError("--scene-camera has no effect: " + flags.scene + " is no glTF file");
+        throw UsageError("--scene-camera has no effect: " + flags.scene + " is not a glTF file");
     flags.input.path = flags.scene;
 }
 
@@ -281,21 +281,22 @@ void add_view(Verb& program, Action& chosen) {
                "another picture to compare with, such as the truth or a frame made before", flags->against)
         .value(
             "--scene", "NAME",
-            "a built-in scene, or a .gltf or .glb file, instead of IN, rendered at every move of its camera",
+            "instead of IN: a built-in scene, or a .gltf or .glb file, rendered at every move of its camera",
             parse_text, flags->scene)
         .value("--scene-camera", "NAME",
-               "of a glTF file's cameras that of this name, or number from 1 (default: the first)",
-               parse_text, flags->scene_camera)
-        .value("--scene-size", "WxH", "its picture (default 480x270)", parse_window, flags->scene_size)
+               "camera of a glTF file, by name or by number from 1 (default: the first)", parse_text,
+               flags->scene_camera)
+        .value("--scene-size", "WxH", "size of its picture (default 480x270)", parse_window,
+               flags->scene_size)
         .value(
             "--listen", "PORT",
-            "take pictures that renderers push to the viewer tev, on this port of this machine (tev's own is "
-            "14158); with a channel Z in metres they are shown, without compared; instead of IN: waits for "
-            "one",
+            "show pictures that renderers push to the viewer tev, on this port of this machine (tev's own is "
+            "14158). One with a channel Z in metres replaces the picture, others are compared with it; "
+            "without IN the window waits for a picture",
             parse_port, flags->listen)
-        .reads("--script", "FILE", "do what the lines of a file say (docs/reference/window.md), then close",
+        .reads("--script", "FILE", "run the script in a file (docs/reference/window.md), then close",
                flags->script)
-        .value("--window", "WxH", "its size (default 1280x800)", parse_window, flags->size)
+        .value("--window", "WxH", "size of the window (default 1280x800)", parse_window, flags->size)
         .value("--ui-scale", "FACTOR", "size of letters and widgets; the display's by default",
                parse_positive, flags->scale);
     when_typed(verb, [flags, &verb, &chosen] {

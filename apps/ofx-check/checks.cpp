@@ -13,7 +13,7 @@ double seconds_now() {
 
 Scene::Scene(const Setup& setup, std::initializer_list<const char*> rules, const Cast& cast) : stage(setup) {
     std::string why;
-    trying("process.survives");  // a plain frame is no check of a rule
+    trying("process.survives");  // a plain frame is not a check of a rule
     if (stage.begin()) effect = stage.create(cast);
     if (effect) {
         const double start = seconds_now();

@@ -30,7 +30,7 @@ bool read_lines(int from, double timeout_s, std::string& text) {
 }
 
 [[noreturn]] void be_child(const Check& check, const Setup& setup, int to) {
-    dup2(STDERR_FILENO, STDOUT_FILENO);  // what a plug-in prints is no finding
+    dup2(STDERR_FILENO, STDOUT_FILENO);  // what a plug-in prints is not a finding
     report_to(to);
     watch_memory();
     check.run(setup);

@@ -39,7 +39,7 @@ Bundle find_bundle(const std::string& path) {
     }
     if (!folder.has_filename()) folder = folder.parent_path();
     const std::string name = folder.filename().string();
-    if (!fs::is_directory(folder, ignored)) return {"", path + " is no folder"};
+    if (!fs::is_directory(folder, ignored)) return {"", path + " is not a folder"};
     const fs::path binaries = folder / "Contents" / kArchitecture;
     const fs::path expected = binaries / folder.stem();
     if (!name.ends_with(".ofx.bundle")) return {"", name + " does not end with .ofx.bundle"};

@@ -55,7 +55,7 @@ constexpr std::array kRules{
     Rule{"render.repeat", kRendering, "the same render gives the same bits"},
     Rule{"render.contexts", kContexts, "an instance renders in each context that Describe names"},
     Rule{"rows.negative", kImages, "row bytes may be negative"},
-    Rule{"rows.padding", kImages, "row bytes need be no multiple of a pixel"},
+    Rule{"rows.padding", kImages, "row bytes need not be a multiple of a pixel"},
     Rule{"bounds.offset", kImages, "bounds need not begin at 0, nor be alike"},
     Rule{"scale.half", "Spatial Coordinates", "at render scale 1/2 the picture is the same, smaller"},
     Rule{"window.part", kRendering,

@@ -31,7 +31,7 @@ bool may_return(std::string_view action, int status) {
 std::string problem_of(const ofx::Plugin* plugin) {
     if (!plugin) return "OfxGetPlugin gives null";
     if (!plugin->api || std::strcmp(plugin->api, ofx::kImageEffectApi) != 0)
-        return "its API is no image effect";
+        return "its API is not that of image effects";
     if (plugin->api_version != 1) return "its API version is " + std::to_string(plugin->api_version);
     if (!plugin->identifier || !*plugin->identifier) return "it has no identifier";
     for (const char* c = plugin->identifier; *c; ++c)

@@ -43,8 +43,8 @@ struct HighlightExpansion {
     bool operator==(const HighlightExpansion&) const = default;
 };
 
-// Errors: InvalidArgument for numbers out of range, or if the picture holds light above 1.05: it is no plate
-// of low range.
+// Errors: InvalidArgument for numbers out of range, or if the picture holds light above 1.05: it is not a
+// plate of low range.
 PETZVAL_API Result<Picture> expand_highlights(View<const Rgba> plate, const HighlightExpansion& expansion);
 
 // The way back, after the blur. A pixel that the blur left alone, equal to that of `expanded`, is the plate's

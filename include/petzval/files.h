@@ -141,7 +141,7 @@ enum class PixelType { Keep, Half, Float };
 struct WriteReport {
     std::size_t clamped_to_half = 0;  // finite colour values beyond 65504, written as 65504
     std::size_t non_finite = 0;       // NaN written as 0, infinities as 65504
-    bool became_rgb = false;          // luminance (Y) is no grey any more, or had chroma: written as R, G, B
+    bool became_rgb = false;          // luminance (Y) is not grey any more, or had chroma: written as R, G, B
 };
 
 struct WriteOptions {

@@ -65,7 +65,7 @@ PETZVAL_API std::span<const Named<DepthEdges>> names();
 template <>
 PETZVAL_API std::span<const Named<ErrorCode>> names();
 
-// "standard"; "?" for a number that is no value of the enum.
+// "standard"; "?" for a number that is not a value of the enum.
 template <typename E>
 requires std::is_enum_v<E>
 const char* name_of(E value) {

@@ -13,7 +13,7 @@ namespace petzval {
 class PETZVAL_API RunFiles {
 public:
     // A name with a place for a frame number (frames.h) is every file of that pattern that is there: a frame
-    // may be read as a neighbour of another. A name that is no file, as that of a lens, guards nothing.
+    // may be read as a neighbour of another. A name that is not a file, as that of a lens, guards nothing.
     void reads(const std::string& path);
     // Empty names are passed over, and so are names with a place for a frame number: each frame's own name
     // is added once the frames are known.

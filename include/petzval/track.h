@@ -41,7 +41,7 @@ struct TrackedFrame {
 class PETZVAL_API Track {
 public:
     // Errors: InvalidFile with the path and the line or the key: missing, damaged, an unknown column, a frame
-    // twice, a value that is no number where one is needed, no key at all.
+    // twice, a value that is not a number where one is needed, no key at all.
     static Result<Track> read(const std::string& path);
 
     // A rack: "1001:80,45" is a pixel in a frame, "1024:3.2" a distance in metres. Errors: InvalidArgument.

@@ -43,7 +43,7 @@ LentImage::LentImage(ofx::Effect* effect, const char* name, ofx::Time time) {
     unpremultiplied_ = image_.text(ofx::kPreMultiplication) == ofx::kUnPreMultiplied;
     const int channels = channels_of(image_.text(ofx::kComponents));
     if (!data_ || !bounded || image_.text(ofx::kPixelDepth) != ofx::kFloat) return;
-    // Rows that overlap are no rows.
+    // Rows that overlap are not rows.
     const std::ptrdiff_t least = std::ptrdiff_t(width()) * channels * std::ptrdiff_t(sizeof(float));
     if (height() == 1 || std::abs(row_bytes_) >= least) channels_ = channels;
 }

@@ -48,7 +48,7 @@ private:
     const CancellableWorkers* before_;
 };
 
-// For long work that is no parallel_for, as one wide kernel: to be asked every few milliseconds. Throws
+// For long work that is not a parallel_for, as one wide kernel: to be asked every few milliseconds. Throws
 // Cancelled where this thread works for workers that are cancelled.
 void check_cancelled();
 

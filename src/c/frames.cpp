@@ -141,7 +141,7 @@ petzval_status take_stage(petzval_session& session, std::string_view stage, Aske
                           const petzval_look* look, const ColourView& into, petzval_report** report) {
     const bool is_light = stage == "light";
     if (!is_light && stage != "blur" && stage != "falloff" && stage != "glare")
-        return fail(refused("stage is none of blur, falloff and glare, nor light, which is the last two"));
+        return fail(refused("stage must be blur, falloff, glare, or light (falloff and glare)"));
     if (!is_light && stage != "falloff") asked.look.vignetting = false;
     if (!is_light && stage != "glare") asked.look.glare = {};
     if (stage == "blur") return take_frame(session, asked, look, into, report);

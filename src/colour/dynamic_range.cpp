@@ -106,7 +106,7 @@ void add_advice(DynamicRange& range, bool low, bool display_referred) {
         range.advice.push_back(
             rounded(100 * range.clipped_share) +
             " % of the pixels are clipped at 1: lights hold no more than diffuse white, so "
-            "their blur will be dull; plate.expand_highlights gives them back by assumption");
+            "their blur will be dull; plate.expand_highlights estimates their brightness");
     const double stops = range.diffuse_over_shadow_stops;
     if (!display_referred && stops > 0.5 && stops < 2 && range.specular_over_diffuse_stops < 1.5)
         range.advice.emplace_back(

@@ -16,7 +16,7 @@ constexpr float kNoValueFrom = 1e10f;
 // All values that there are, ascending; empty: more than a file's codes.
 std::vector<float> distinct_values(View<const float> values) {
     constexpr std::size_t kMost = 65536, kSome = 4096;
-    constexpr float kHardlyTwice = 0.9f;  // of some values so many distinct ones are no codes
+    constexpr float kHardlyTwice = 0.9f;  // of some values so many distinct ones are not codes
     std::unordered_set<float> found;
     std::size_t seen = 0;
     for (int y = 0; y < values.height(); ++y)

@@ -11,7 +11,7 @@ namespace petzval::device {
 // asks for them.
 class Canvas {
 public:
-    // Host memory to draw into; its content is no picture yet.
+    // Host memory to draw into; its content is not a picture yet.
     explicit Canvas(Picture memory) : memory_(std::move(memory)) {}
     virtual ~Canvas() = default;
     Canvas(const Canvas&) = delete;

@@ -1,4 +1,4 @@
-// The state of a shot on a farm. Records are read as text of other processes: what is no JSON is skipped.
+// The state of a shot on a farm. Records are read as text of other processes: what is not JSON is skipped.
 #include "petzval/farm/state.h"
 
 #include "petzval/frames.h"
@@ -99,7 +99,7 @@ Result<FarmShot> shot_of(const Json& facts, const std::string& path) {
     const auto wrong = [&](const std::string& what) {
         return Error{ErrorCode::InvalidFile, path + ": " + what + "; petzval farm write makes this file"};
     };
-    if (!facts.is_object()) return wrong("is no JSON object");
+    if (!facts.is_object()) return wrong("is not a JSON object");
     FarmShot shot;
     shot.name = text_of(facts, "name");
     shot.working_folder = text_of(facts, "working_folder");
@@ -127,7 +127,7 @@ Result<FarmShot> farm_shot(const std::string& folder) {
     std::error_code problem;
     if (!fs::is_regular_file(path, problem))
         return Error{ErrorCode::InvalidFile,
-                     path + ": does not exist; " + folder + " is no job of petzval farm write"};
+                     path + ": does not exist; " + folder + " is not a job of petzval farm write"};
     constexpr std::size_t kMostBytes = std::size_t(1) << 28;
     const auto text = text_of_file(path, kMostBytes);
     if (!text) return text.error();

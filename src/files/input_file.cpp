@@ -74,7 +74,7 @@ Result<int> standard_input(const Workers& workers, std::uint64_t most, std::uint
         bytes += std::uint64_t(got);
         if (bytes > most)
             return given_up({ErrorCode::OutOfMemory, "standard input holds more than " + byte_count(most) +
-                                                         ", which it is read into; give a file"});
+                                                         ", the limit for reading it; give a file"});
         if (::write(file, buffer.data(), std::size_t(got)) != got)
             return given_up({ErrorCode::OutOfMemory, "standard input does not fit into memory; give a file"});
     }

@@ -12,8 +12,8 @@ namespace petzval {
 class OutputFile {
 public:
     // "-.exr" and the like is standard output: kept in memory until commit(), as formats write back and
-    // forth. Errors: OutputFailed if the folder is missing or not writable, the target is no regular file, or
-    // it exists and `overwrite` is false.
+    // forth. Errors: OutputFailed if the folder is missing or not writable, the target is not a regular file,
+    // or it exists and `overwrite` is false.
     static Result<std::unique_ptr<OutputFile>> create(const std::string& path, bool overwrite);
     // Removes the unfinished file unless commit() succeeded.
     ~OutputFile();

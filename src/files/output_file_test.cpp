@@ -172,7 +172,7 @@ TEST(Outputs, NeverReplaceAnInputOrEachOther) {
     EXPECT_TRUE(check_outputs({folder / "new", "-", "", "-"}, {folder / "in", "-"}));
     EXPECT_TRUE(check_outputs({"-.exr", ""}, {"-"}));
     EXPECT_FALSE(check_outputs({"-.exr", "-"}, {}));
-    EXPECT_TRUE(check_outputs({folder / "new"}, {"new"}));  // a word that is no file
+    EXPECT_TRUE(check_outputs({folder / "new"}, {"new"}));  // a word that is not a file
 }
 
 TEST(Outputs, PlacesThatCannotBeWrittenAreKnownBeforehand) {

@@ -22,7 +22,7 @@ struct PrimariesConversion {
 
 // Nothing if the primaries are those of Rec.709 (to 1e-3) and neutral is D65, or if they describe no colour
 // space. Neutral becomes D65 (Bradford adaptation): `neutral` (OpenEXR's adoptedNeutral) if given, otherwise
-// the white of the primaries. CIE XYZ encodings are the exception: their white E is no real light, so they
+// the white of the primaries. CIE XYZ encodings are the exception: their white E is not real light, so they
 // are used unchanged.
 std::optional<PrimariesConversion> conversion_of(const Chromaticities& primaries,
                                                  std::optional<Chromaticity> neutral = {});

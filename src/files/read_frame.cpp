@@ -15,7 +15,7 @@ namespace petzval {
 namespace {
 
 Error unknown_format(const InputFile& file) {
-    return invalid_file(file.path(), "is no picture that can be read (OpenEXR, " + raster_formats() +
+    return invalid_file(file.path(), "is not a picture that can be read (OpenEXR, " + raster_formats() +
                                          "), despite its file name");
 }
 

@@ -46,7 +46,7 @@ TEST(Place, SaysWhatIsWrong) {
                                 std::numeric_limits<double>::infinity(), 1e-7, 2e6, 1e300})
         EXPECT_FALSE(check(Place::whole({0, 0, 1, 1}, aspect))) << aspect;
     constexpr int kFar = std::numeric_limits<int>::max();
-    EXPECT_FALSE(check(Place::whole({-kFar, 0, kFar, 1})));  // its width is no int
+    EXPECT_FALSE(check(Place::whole({-kFar, 0, kFar, 1})));  // its width is not an int
     EXPECT_FALSE(check(Place{{0, 0, 1, 1}, {0, kFar - 1, 1, kFar}, 1}));
     EXPECT_TRUE(check(Place::whole({-(1 << 29), 0, 1 << 29, 1})));
     for (const float aspect : {1e-6f, 0.5f, 2.0f, 1e6f})

@@ -25,7 +25,7 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
         text.replace(at, from.size(), to);
 }
 
-// Bytes of a lens file that are no UTF-8 become U+FFFD.
+// Bytes of a lens file that are not UTF-8 become U+FFFD.
 std::string written(const Json& json) {
     std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
     replace_all(text, "\"\\u0001infinity\"", "1e999");

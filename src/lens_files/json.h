@@ -24,7 +24,7 @@ struct Json {
     std::vector<JsonMember> members;  // of an object, as written
 
     bool is(Type wanted) const { return type == wanted; }
-    // The member of that name; nullptr when there is none or this is no object.
+    // The member of that name; nullptr when there is none or this is not an object.
     const Json* find(std::string_view name) const;
 };
 

@@ -203,7 +203,7 @@ Status Reader::radius(const Json& value, Surface& out) const {
     if (value.is(Json::Type::Null) || is_infinite_word(value)) return Done{};
     const auto size = number(value, "radius (null is a plane)");
     if (!size) return size.error();
-    if (*size == 0) return at_line(value.line, "a radius of 0 is no surface; null is a plane");
+    if (*size == 0) return at_line(value.line, "a radius of 0 is not a surface; null is a plane");
     out.curvature_per_mm = 1 / (*size * mm_);
     return Done{};
 }
@@ -337,9 +337,10 @@ Status Reader::finish(const Json& root) {
     optics::Prescription& lens = file_.lens;
     if (lens.surfaces.empty()) {
         const Json* several = root.find("lenses");
-        return at_line(root.line, several ? "this is a list of " + std::to_string(several->items.size()) +
-                                                " lenses; save one entry alone"
-                                          : "there are neither \"surfaces\" nor \"curves\": this is no lens");
+        return at_line(root.line, several
+                                      ? "this is a list of " + std::to_string(several->items.size()) +
+                                            " lenses; save one entry alone"
+                                      : "there are neither \"surfaces\" nor \"curves\": this is not a lens");
     }
     if (!has_stop_) {
         lens.stop = 0;

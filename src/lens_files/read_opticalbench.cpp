@@ -65,7 +65,7 @@ Status Reader::shape(const Cells& cells, const Line& line, optics::Surface& to) 
     const auto radius = parse_number(kind);
     if (!radius)
         return at_line(line.number,
-                       quoted(cell(cells, 1)) + " is no radius; a number, Infinity, AS, FS or CG is");
+                       quoted(cell(cells, 1)) + " is not a radius; a number, Infinity, AS, FS or CG is");
     if (std::isfinite(*radius) && *radius != 0) to.curvature_per_mm = 1 / *radius;
     return Done{};
 }
@@ -80,7 +80,7 @@ Status Reader::medium(const Cells& cells, const Line& line, optics::Surface& to)
     for (const auto& [text, to_number] : {std::pair{nd, &request.nd}, {vd, &request.vd}}) {
         if (text.empty()) continue;
         *to_number = parse_number(text);
-        if (!*to_number) return at_line(line.number, quoted(text) + " is no index or Abbe number");
+        if (!*to_number) return at_line(line.number, quoted(text) + " is not an index or Abbe number");
     }
     if (request.nd && *request.nd == 1 && request.name.empty()) return Done{};
     const auto glass = glasses_.find(request);

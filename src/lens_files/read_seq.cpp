@@ -260,7 +260,7 @@ Status Reader::stop(const Command& c) {
     const std::string surface = upper_case(c.words[1]);
     const auto number = parse_number(surface.substr(surface[0] == 'S' ? 1 : 0));
     if (!number || !(*number >= 1 && *number <= optics::kMostSurfaces) || *number != std::floor(*number))
-        return at_line(c.line, quoted(c.words[1]) + " is no surface number for STO");
+        return at_line(c.line, quoted(c.words[1]) + " is not a surface number for STO");
     file_.lens.stop = int(*number) - 1;
     stop_line_ = c.line;
     return Done{};

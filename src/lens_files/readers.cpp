@@ -36,7 +36,7 @@ Result<optics::Glass> GlassFinder::find(const GlassRequest& request) {
             return *glass;
         }
     }
-    // Programs write 1.5 and 40 where they know no better; that is no glass.
+    // Programs write 1.5 and 40 where they know no better; that is not a glass.
     const bool placeholder = request.nd && request.vd && *request.nd == 1.5 && *request.vd == 40;
     if (request.nd && *request.nd > 0 && !(placeholder && !request.name.empty())) {
         if (!request.name.empty()) modelled_.insert(request.name);

@@ -158,7 +158,7 @@ std::optional<double> parse_number(std::string_view word) {
     double value = 0;
     const auto [end, error] = number_from_text(digits, value);
     if (error == std::errc::result_out_of_range) {
-        // Too small is zero; too large is no number.
+        // Too small is zero; too large is not a number.
         const bool tiny = digits.find("E-") != std::string::npos;
         if (!tiny || end != digits.data() + digits.size()) return std::nullopt;
         return sign * 0.0;

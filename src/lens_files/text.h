@@ -9,7 +9,7 @@
 namespace petzval::lens_files {
 
 // UTF-8 from UTF-8 or UTF-16 (either byte order) with their marks, from UTF-16 without one when every other
-// byte of the start is zero, and from Latin-1 when the bytes are no UTF-8.
+// byte of the start is zero, and from Latin-1 when the bytes are not UTF-8.
 std::string decode_text(std::string_view bytes);
 
 void append_utf8(std::string& out, char32_t code);

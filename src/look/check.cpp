@@ -43,7 +43,7 @@ std::string why_blind(const Look& look) {
     if (look.engine == "gaussian") return with_engine(look) + ", whose blur is always round";
     if (is_published_stage(look))
         return std::string("with gather.stage ") + name_of(look.gather.stage) +
-               ", which knows round discs alone";
+               ", which draws round discs only";
     return "";
 }
 
@@ -158,7 +158,7 @@ bool adds_colour(const AddedAberrations& added) {
     return added.axial_colour_mm != 0 || added.lateral_colour_percent != 0;
 }
 
-constexpr const char* kStandIn = "with lens.kernel_image, which stands in for the lens";
+constexpr const char* kStandIn = "with lens.kernel_image, which replaces the lens";
 
 // Fields that change discs only, never glare.
 const std::vector<std::string> kTexture{"lens.aperture_image", "lens.dust", "lens.scratches",

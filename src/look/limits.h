@@ -9,8 +9,8 @@
 
 namespace petzval::look {
 
-// Errors: a message that completes "glare.bloom: …". True of values that are no number, which the field's own
-// reader judges.
+// Errors: a message that completes "glare.bloom: …". True of values that are not a number, which the field's
+// own reader judges.
 Status check_limit(const std::string& path, const Json& value);
 
 }  // namespace petzval::look

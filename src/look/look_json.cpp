@@ -66,7 +66,7 @@ struct Repetition {
 
 Status check_version(const Json& json) {
     if (!json.contains(kVersionKey))
-        return no_look(std::string("is no look: it has no \"") + kVersionKey +
+        return no_look(std::string("is not a look: it has no \"") + kVersionKey +
                        "\": " + std::to_string(kLookVersion));
     const Json& version = json[kVersionKey];
     if (!version.is_number_unsigned() || version == 0)
@@ -111,8 +111,8 @@ Result<Look> look_from_json(const std::string& text) {
     if (look::is_link(text)) return look::look_from_link(text);
     Repetition repetition;
     const Json json = Json::parse(text, std::ref(repetition), false);
-    if (json.is_discarded()) return no_look("is no JSON");
-    if (!json.is_object()) return no_look("is no look: not an object");
+    if (json.is_discarded()) return no_look("is not JSON");
+    if (!json.is_object()) return no_look("is not a look: not an object");
     if (!repetition.found.empty()) return no_look("holds the key " + repetition.found + " twice");
     if (const Status known = check_version(json); !known) return known.error();
     auto base = base_of(json);

@@ -63,13 +63,13 @@ Result<Look> look_of(const Json& told) {
     Look look;
     look.lens.name = lens["name"].get<std::string>();
     if (lens.contains("text") && !lens["text"].is_null()) {
-        if (!lens["text"].is_string()) return refused("its lens is no text");
+        if (!lens["text"].is_string()) return refused("its lens is not text");
         look.lens.name = lens["text"].get<std::string>();
         if (!optics::is_lens_text(look.lens.name)) return refused("it holds a lens of one line");
     }
     const Json none = Json::object();
     const Json& fields = lens.contains("look") ? lens["look"] : none;
-    if (!fields.is_object()) return refused("its choices are no object");
+    if (!fields.is_object()) return refused("its choices are not an object");
     for (const auto& [name, value] : fields.items()) {
         const std::string path = "lens." + name;
         const Field* const field = find_field(path);

@@ -190,11 +190,11 @@ TEST(LookJson, WrongTypesAreRefusedByPath) {
 }
 
 TEST(LookJson, WhatIsNoLookIsRefused) {
-    EXPECT_EQ(refusal(""), "is no JSON");
-    EXPECT_EQ(refusal("{"), "is no JSON");
-    EXPECT_EQ(refusal("{\"petzval_look\": 1} x"), "is no JSON");
-    EXPECT_EQ(refusal("[]"), "is no look: not an object");
-    EXPECT_EQ(refusal("{}"), "is no look: it has no \"petzval_look\": 1");
+    EXPECT_EQ(refusal(""), "is not JSON");
+    EXPECT_EQ(refusal("{"), "is not JSON");
+    EXPECT_EQ(refusal("{\"petzval_look\": 1} x"), "is not JSON");
+    EXPECT_EQ(refusal("[]"), "is not a look: not an object");
+    EXPECT_EQ(refusal("{}"), "is not a look: it has no \"petzval_look\": 1");
     EXPECT_EQ(refusal("{\"petzval_look\": 2}"),
               "comes from a later version: petzval_look 2, this one reads 1");
     EXPECT_EQ(refusal("{\"petzval_look\": \"1\"}"), "petzval_look: must be 1");

@@ -195,7 +195,7 @@ Status StandingScene::Contents::fill(const std::string& name, const SceneSetting
     }
     if (!settings.own_camera.empty())
         return Error{ErrorCode::InvalidArgument,
-                     "scene.own_camera has no effect: " + name + " is no file with cameras",
+                     "scene.own_camera has no effect: " + name + " is not a file with cameras",
                      "scene.own_camera"};
     std::optional<scene::BuiltInScene> found = scene::find(name, settings.seed);
     if (!found) return scene::unknown(name);
@@ -223,7 +223,7 @@ Result<scene::WorldsAround> StandingScene::Contents::around(const SceneSettings&
     if (frames == 1 || !built_in)
         return Error{ErrorCode::InvalidArgument,
                      built_in ? "this scene does not move, so it has no motion vectors (scene.want_motion)"
-                              : "of files no motion vectors are made (scene.want_motion)"};
+                              : "motion vectors are made of built-in scenes only (scene.want_motion)"};
     for (const auto& [later, place] : {std::pair{-1, &worlds.before}, {1, &worlds.after}}) {
         auto at_that_time = std::make_unique<scene::World>(true);
         built_in->build(*at_that_time, scene::time_of(frame + later, frames));

@@ -32,7 +32,7 @@ public:
         if (*distance)
             measured_.push_back({frame, **distance});
         else
-            record["warnings"].push_back("frame " + std::to_string(frame) + ": nothing is seen at " +
+            record["warnings"].push_back("frame " + std::to_string(frame) + ": no surface at " +
                                          std::to_string(pixel.x) + "," + std::to_string(pixel.y) +
                                          "; focus is interpolated between its neighbours");
         return frame_record(sequence::as_text(record));

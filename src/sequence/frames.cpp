@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kMostFrames = 1'000'000;
 constexpr int kMostDigits = 12;
 
-// The beginning of a text for messages, which are one line: bytes that are no ASCII letters or signs become
+// The beginning of a text for messages, which are one line: bytes that are not ASCII letters or signs become
 // '?'.
 std::string shown(std::string_view text, std::size_t most) {
     std::string line(text.substr(0, most));
@@ -160,7 +160,8 @@ Result<std::optional<FramePattern>> FramePattern::find(std::string_view path) {
     const Placeholder at = found.front();
     const std::size_t slash = path.rfind('/');
     const std::size_t name = slash == std::string_view::npos ? 0 : slash + 1;
-    if (at.begin < name) return refuse("has its frame number in a folder's name; it belongs into the file's");
+    if (at.begin < name)
+        return refuse("has its frame number in a folder's name; put it into the file's name");
     if (at.digits > kMostDigits) return refuse("has more than 12 digits for a frame number");
     FramePattern pattern;
     pattern.folder_ = path.substr(0, name);

@@ -69,7 +69,7 @@ Status check_motion(const ShotRunSettings& of_frame) {
     return Error{
         ErrorCode::InvalidArgument,
         source.path +
-            ": shot.temporal has to know how the camera or what it sees moves, and the file "
+            ": shot.temporal needs the motion of the camera or of the surfaces, and the file "
             "has neither " +
             (has_matrix ? "focal length and sensor width" : "a worldToCamera matrix") +
             " nor motion vectors: " +

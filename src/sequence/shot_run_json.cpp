@@ -218,7 +218,7 @@ Error invalid(const std::string& message) { return {ErrorCode::InvalidArgument, 
 
 Result<ShotRunSettings> shot_run_from_json(const std::string& text) {
     const Json json = Json::parse(text, nullptr, false);
-    if (json.is_discarded()) return invalid("settings of a shot run: no JSON");
+    if (json.is_discarded()) return invalid("settings of a shot run: not JSON");
     ShotRunSettings settings;
     try {
         take_all(json, kKeys, "", settings);

@@ -169,7 +169,7 @@ TEST_F(ShotRunTest, ASinglePictureIsARunOfOneFrame) {
 
 TEST(ShotRunSettings, WrongJsonIsRefusedByItsKey) {
     for (const auto& [text, says] : std::initializer_list<std::pair<const char*, const char*>>{
-             {"", "no JSON"},
+             {"", "not JSON"},
              {"[]", "not an object"},
              {"{}", "input is missing"},
              {R"({"input": "a.exr"})", "output is missing"},

@@ -135,7 +135,8 @@ public:
     Result<Track> read() {
         std::error_code missing;
         if (!std::filesystem::is_regular_file(path_, missing)) return wrong("is not a file");
-        if (std::filesystem::file_size(path_, missing) > kLargestFile) return wrong("is no track: too large");
+        if (std::filesystem::file_size(path_, missing) > kLargestFile)
+            return wrong("is not a track: too large");
         const auto text = text_of_file(path_, kLargestFile);
         if (!text) return text.error();
         const std::string& all = *text;
@@ -170,7 +171,7 @@ private:
                 if (std::find(names.begin(), names.end(), "frame") == names.end())
                     return wrong("no column is called frame; the first line names the columns", where);
                 if (std::set<std::string>(names.begin(), names.end()).size() != names.size())
-                    return wrong("a column is there twice", where);
+                    return wrong("a column occurs twice", where);
                 continue;
             }
             if (values.size() != names.size())
@@ -187,7 +188,7 @@ private:
 
     Status from_json(const std::string& text) {
         const Json json = Json::parse(text, nullptr, false);
-        if (json.is_discarded()) return wrong("is no JSON");
+        if (json.is_discarded()) return wrong("is not JSON");
         if (!json.contains("frames") || !json["frames"].is_array())
             return wrong("has no \"frames\": [{\"frame\": 1001, …}, …]");
         int n = 0;
@@ -205,9 +206,9 @@ private:
     Status take(const std::map<std::string, std::string>& key, const std::string& where) {
         const auto at = key.find("frame");
         const auto frame = at == key.end() ? std::nullopt : frame_number(at->second);
-        if (!frame) return wrong("a frame number is missing or none", where);
+        if (!frame) return wrong("a frame number is missing or is not a whole number", where);
         if (!frames_.insert(*frame).second)
-            return wrong("frame " + std::to_string(*frame) + " is there twice", where);
+            return wrong("frame " + std::to_string(*frame) + " occurs twice", where);
         for (const auto& [name, value] : key) {
             if (name == "frame") continue;
             if (name == kFollow && !on_or_off(value))
@@ -218,7 +219,10 @@ private:
                                   (known->scale == Scale::Even ? std::isfinite(*read) : *read > 0) &&
                                   (known->scale != Scale::Stops || std::isfinite(*read));
                 if (!fits)
-                    return wrong(std::string(name).append(" ").append(value) + " is no such number", where);
+                    return wrong(std::string(name).append(" ").append(value) +
+                                     (known->scale == Scale::Even ? " must be a finite number"
+                                                                  : " must be a number above 0"),
+                                 where);
                 column(name).numbers[*frame] = on_scale(known->scale, *read);
             } else if (name == kFollow) {
                 column(name).keys[*frame] = value;

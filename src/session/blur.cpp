@@ -129,7 +129,7 @@ void note_passed_over(const Blur& blur, std::vector<std::string>& warnings) {
     const std::string who = std::string("job.engine ") + blur.engine.name;
     const Rendered& given = blur.request.rendered;
     if (given.deep && !given.deep->empty())
-        warnings.push_back(who + " looks at the front view of the deep picture alone");
+        warnings.push_back(who + " flattens the deep picture: one depth in each pixel");
     if (given.behind && !given.behind->empty()) warnings.push_back("shot.behind has no effect with " + who);
 }
 

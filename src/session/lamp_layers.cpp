@@ -61,7 +61,7 @@ Result<Blurred> with_lamps(const FrameRequest& request, const MakeFrame& make) {
     const std::set<LightSpectrum> lamps = lamps_of(request);
     const std::vector<ColourLayer>& layers = request.rendered.layers;
     for (const ColourLayer& layer : layers)
-        if (layer.spectrum && !layer.is_light) return refuse("give a spectrum to a layer that is no light");
+        if (layer.spectrum && !layer.is_light) return refuse("give a spectrum to a layer that is not light");
     if (!lamps.empty() && request.look.engine == "gaussian")
         return refuse("name a lamp; engine gaussian blurs all wavelengths alike");
     auto made = make(request);

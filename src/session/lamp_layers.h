@@ -17,8 +17,8 @@ bool has_lamps(const FrameRequest& request);
 
 // The frame that `make` makes, in which layers with a spectrum are blurred as that lamp's light, in the
 // picture too. Each lamp costs another frame, by the same picture and so by the same weights; what it changes
-// of its layers is added to the picture. Errors: those of `make`; InvalidArgument for a layer that is no
-// light, and of engine gaussian. Requires: the lens is open.
+// of its layers is added to the picture. Errors: those of `make`; InvalidArgument for a layer that is not
+// light, and with engine gaussian. Requires: the lens is open.
 Result<Blurred> with_lamps(const FrameRequest& request, const MakeFrame& make);
 
 // Errors: InvalidArgument where a lamp of the layers would change nothing with this look.

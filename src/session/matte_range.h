@@ -8,7 +8,7 @@
 
 namespace petzval {
 
-// Limits each channel of the report's layers that are no light to 0…1 where all of it was within before.
+// Limits each channel of the report's layers that are not light to 0…1 where all of it was within before.
 // Engines leave the range by the last digits of their kernels' sums, and `gather` and `gaussian` by more
 // where they draw bright parts of a layer on their own.
 void keep_matte_range(DefocusReport& report, const Rendered& rendered, Workers& workers);

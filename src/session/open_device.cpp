@@ -85,7 +85,7 @@ Result<std::shared_ptr<const device::Device>> open_device(const std::string& cho
     const auto number = number_of(choice);
     if (choice != "gpu" && choice != "auto" && !number)
         return refused(ErrorCode::InvalidArgument,
-                       "\"" + choice + "\" is none; it is cpu, gpu, gpu:N or auto");
+                       "\"" + choice + "\" is not a device; use cpu, gpu, gpu:N or auto");
     const auto choices = vulkan_choices();
     if (choice == "auto") {
         if (choices)
@@ -98,7 +98,8 @@ Result<std::shared_ptr<const device::Device>> open_device(const std::string& cho
         return refused(ErrorCode::Unsupported, choice + ": no driver of Vulkan is installed");
     if (!number) return opened(0);
     if (*number >= choices->size())
-        return refused(ErrorCode::InvalidArgument, choice + " is not there; there are: " + listed(*choices));
+        return refused(ErrorCode::InvalidArgument,
+                       choice + " does not exist; there are: " + listed(*choices));
     return opened(*number);
 }
 

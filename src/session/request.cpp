@@ -86,7 +86,7 @@ std::vector<std::string> not_used_of(const DefocusJob& job, const SessionSetting
     const auto note = [&](bool is_not_used, const char* field) {
         if (!is_not_used) return;
         std::string line = "job.";
-        line.append(field).append(" is not used: the session's own stands");
+        line.append(field).append(" is not used: the session has its own");
         warnings.push_back(line);
     };
     const DefocusJob usual;

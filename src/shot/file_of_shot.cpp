@@ -34,7 +34,7 @@ DepthReport check_radii(View<float> radii) {
     return report;
 }
 
-// Steps of one code are no edges.
+// Steps of one code are not edges.
 void join_codes(Frame& frame, const DepthSettings& settings) {
     if (frame.depth.empty() || !frame.deep.empty()) return;
     const float quantum = quantum_of(frame.depth, frame.depth_is_share);

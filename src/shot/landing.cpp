@@ -339,18 +339,18 @@ Result<Landings> landings_of(const OtherPicture& other, std::span<const OtherPic
             landings.of_pixels = std::move(moved);
             return landings;
         }
-        landings.warning = theirs.path + ": " + name_of(other) + ' ' + percent(alike) +
-                           " of the picture look the same" +
-                           (has_camera ? ", by its camera " + percent(standing) : "") +
-                           (has_vectors ? ": they are left out; too much moves, or look at read.motion.scale"
-                                        : ": too much moves, and the frame is not used by it");
+        landings.warning =
+            theirs.path + ": " + name_of(other) + ' ' + percent(alike) + " of the picture look the same" +
+            (has_camera ? ", by its camera " + percent(standing) : "") +
+            (has_vectors ? ": the vectors are not used; too much moves, or read.motion.scale is wrong"
+                         : ": too much moves, so the estimated motion is not used");
         if (standing < kShareThatFits) return Error{ErrorCode::InvalidArgument, landings.warning};
     }
     if (!by_cameras) return by_cameras.error();
     if (!has_camera) return cannot(theirs, "by its camera and depth it does not show the same things");
     if (standing < kShareThatFits)
-        return cannot(theirs, "most of it moves by itself or looks different: by its camera " +
-                                  percent(standing) + " of the picture look the same");
+        return cannot(theirs, "most of it moves or looks different: by its camera " + percent(standing) +
+                                  " of the picture look the same");
     return landings;
 }
 

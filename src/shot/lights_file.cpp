@@ -99,7 +99,7 @@ private:
             if (known == kNames.end())
                 wrong = quoted(field) + " is not a column; the first line names them: " + kAccepted;
             else if (seen[column])
-                wrong = "column " + name + " is there twice";
+                wrong = "column " + name + " occurs twice";
             if (wrong) return false;
             seen[column] = true;
             order_.push_back(Column(column));
@@ -110,7 +110,7 @@ private:
             if (!seen[needed])
                 return "column " + std::string(kNames[needed]) + " is missing; needed are " + kAccepted;
         if (seen[kDepth] == seen[kCoc])
-            return std::string(seen[kCoc] ? "columns depth and coc are both there; give one"
+            return std::string(seen[kCoc] ? "columns depth and coc are both given; give one"
                                           : "column depth or coc is missing");
         result_.has_depth = seen[kDepth];
         return std::nullopt;

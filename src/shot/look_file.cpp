@@ -57,7 +57,7 @@ Result<Look> read_look(const std::string& path) {
         return not_read(path, "is not a regular file; pipes and devices cannot be read");
     const auto text = text_of_file(path, kMostBytes);
     if (!text) return text.error();
-    if (text->size() > kMostBytes) return not_read(path, "is no look: more than a megabyte");
+    if (text->size() > kMostBytes) return not_read(path, "is not a look: more than a megabyte");
     auto look = look_from_json(*text);
     if (!look) return not_read(path, look.error().message);
     const fs::path folder = fs::path(path).parent_path();

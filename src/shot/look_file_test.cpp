@@ -79,7 +79,7 @@ TEST_F(LookFile, WhatIsNoLookIsRefusedWithItsPath) {
     EXPECT_EQ(refusal("none.json"), "none.json: cannot be read: No such file or directory");
     EXPECT_EQ(refusal("looks").find("looks: is not a regular file"), 0u);
     EXPECT_EQ(refusal("/dev/zero").find("/dev/zero: is not a regular file"), 0u);
-    EXPECT_EQ(refusal("lenses/mine.json").find("lenses/mine.json: is no look"), 0u);
+    EXPECT_EQ(refusal("lenses/mine.json").find("lenses/mine.json: is not a look"), 0u);
     std::ofstream("typo.json") << R"({"petzval_look": 1, "lens": {"blade": 5}})";
     EXPECT_EQ(refusal("typo.json"), "typo.json: unknown key lens.blade (did you mean lens.blades?)");
     std::ofstream("large.json") << std::string(2000000, ' ');

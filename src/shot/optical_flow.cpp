@@ -29,7 +29,7 @@ bool one_surface(float a, float b) {
 }
 
 Level finest(const DepthPicture& picture, Workers& workers) {
-    constexpr float kDark = 1 / 64.0f;  // noise of less light is no texture
+    constexpr float kDark = 1 / 64.0f;  // noise of less light is not a texture
     Level level{Plane(picture.colour.width(), picture.colour.height()),
                 Plane(picture.depth.width(), picture.depth.height())};
     for_rows(level.stops.height(), workers, [&](int y) {

@@ -168,9 +168,10 @@ Status check(const ShotSource& source) {
             "depth.range is for depth.kind normalized, device, inverse, mist or coc-px; depth here is " +
             name);
     if (!source.read.layers.empty() && !source.merge.empty())
-        return Error{ErrorCode::InvalidArgument,
-                     "read.layers cannot be used with shot.merge: the other pictures hold no such layers",
-                     "read.layers"};
+        return Error{
+            ErrorCode::InvalidArgument,
+            "read.layers cannot be used with shot.merge: the other pictures do not have these layers",
+            "read.layers"};
     if (kind == DepthKind::CocPx && source.depth.unit_scale_m != 1)
         return invalid("depth.unit_scale_m has no meaning with depth.kind coc-px: radii are in pixels");
     if (source.camera.f_number && source.camera.aperture_diameter_mm)

@@ -228,7 +228,7 @@ class Refusals(InBlender):
         choices.lens = ""
         pathlib.Path(self.path("look.json")).write_text("{ broken")
         choices.look_file = self.path("look.json")
-        self.refused("look.json cannot be read: is no JSON")
+        self.refused("look.json cannot be read: is not JSON")
         choices.look_file = self.path("missing.json")
         self.refused("No such file")
         choices.look_file, choices.focus = "", "SURFACE"

@@ -63,7 +63,7 @@ def _of_files(names, manifest):
         yield "files: the wheels are not those of the manifest"
     for wheel in listed:
         if not re.fullmatch(r"wheels/[\w.]+-[\w.]+(-\w+){3}\.whl", wheel):
-            yield f"files: {wheel} is no name of a wheel"
+            yield f"files: {wheel} is not a name of a wheel"
         if wheel.endswith("linux_x86_64.whl") and manifest.get("platforms") != ["linux-x64"]:
             yield "files: the platforms are not those of the wheels"
     for name in ("__init__.py", "LICENSE"):

@@ -1,4 +1,4 @@
-"""What depth means: whole numbers are no metres, disparity has ends, maps of any size are taken, odd depth is said."""
+"""What depth means: whole numbers are not metres, disparity has ends, maps of any size are taken, odd depth is said."""
 import struct
 import unittest
 
@@ -66,7 +66,7 @@ class DepthMeaning(CommandLineTest):
         channels["ViewLayer.Mist.Z"] = plane(WIDTH, HEIGHT, 0.25)
         write_exr(self.path("mist.exr"), channels, attributes=CAMERA)
         self.refuse(3, "defocus", "mist.exr", "-o", "out.exr",
-                    says=["no distance", "--depth-channel ViewLayer.Mist.Z", "--depth-kind mist"])
+                    says=["not a distance", "--depth-channel ViewLayer.Mist.Z", "--depth-kind mist"])
         rows = self.depth("--depth-channel", "ViewLayer.Mist.Z", "--depth-kind", "mist", "--depth-range", "5,25",
                           source="mist.exr")
         self.assertAlmostEqual(rows[HEIGHT // 2][WIDTH // 2], 15, delta=0.01)  # 5 + 20 sqrt(0.25), near the axis

@@ -250,7 +250,7 @@ class Farm(CommandLineTest):
 
     def test_a_folder_that_is_no_job_is_refused(self):
         os.mkdir(self.path("job"))
-        self.refuse(3, "farm", "status", "job", says=["shot.json", "no job"])
+        self.refuse(3, "farm", "status", "job", says=["shot.json", "not a job"])
         for text in ("", "[]", "{}", '{"frames": "1-2000000", "output": "o"}', '{"frames": "1"}'):
             with open(self.path("job/shot.json"), "w") as file:
                 file.write(text)

@@ -95,7 +95,7 @@ class Layers(CommandLineTest):
         self.assertTrue(out["fill.B"] == day["fill.B"])
         for flags, says in ((["--layers", "key:sodium"], "ideal lens"),
                             (["--layers", "matte:neon", *lens], "layers of light"),
-                            (["--layers", "glow:neon", *lens], "no share"),
+                            (["--layers", "glow:neon", *lens], "not a share"),
                             (["--layers", "key:neon", "--engine", "gaussian"], "gaussian")):
             self.refuse(2, "defocus", "in.exr", "-o", "no.exr", *flags, says=["--layers", says])
 

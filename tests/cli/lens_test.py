@@ -1,4 +1,4 @@
-"""petzval lens list and show: the fixed keys, files of every kind, and what is said of files that are no lens."""
+"""petzval lens list and show: the fixed keys, files of every kind, and what is said of files that are not a lens."""
 import ctypes
 import json
 import os

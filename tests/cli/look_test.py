@@ -148,7 +148,7 @@ class Looks(CommandLineTest):
         self.write("later.json", petzval_look=9)
         open(self.path("empty.json"), "w").close()
         for file, code, says in (("typo.json", 3, "did you mean lens.blades?"), ("star.json", 2, "--star"),
-                                 ("later.json", 3, "later version"), ("empty.json", 3, "no JSON"),
+                                 ("later.json", 3, "later version"), ("empty.json", 3, "not JSON"),
                                  ("none.json", 3, "none.json"), (".", 3, "regular file")):
             self.refuse(code, "defocus", "in.exr", "-o", "no.exr", *CAMERA, "--look", file, says=[says])
         self.refuse(1, "defocus", "in.exr", "-o", "no.exr", *CAMERA, "--save-look", "nowhere/look.json", says=["nowhere"])

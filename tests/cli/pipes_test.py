@@ -51,7 +51,7 @@ class Pipes(CommandLineTest):
         self.assertEqual((both.code, both.out[:1]), (2, "{"))  # the error, as was asked
         self.assertIn("two outputs", both.err)
         self.refuse(3, "inspect", "-", says=["standard input", "empty"])
-        for given, says in ((b"text", b"is no picture"), (self.content("in.exr")[:300], b"standard input")):
+        for given, says in ((b"text", b"is not a picture"), (self.content("in.exr")[:300], b"standard input")):
             bad = self.piped("defocus", "-", "-o", "-.exr", given=given)
             self.assertEqual((bad.returncode, bad.stdout), (3, b""))
             self.assertIn(says, bad.stderr)
@@ -69,7 +69,7 @@ class Pipes(CommandLineTest):
         for name in ("p.glb", "p.gltf", "p.bin", "p.txt"):
             os.mkfifo(self.path(name))
         for name in ("p.glb", "p.gltf"):
-            self.refuse(3, "scene", "make", name, "-o", "o.exr", says=[name, "no regular file"])
+            self.refuse(3, "scene", "make", name, "-o", "o.exr", says=[name, "not a regular file"])
         with open(self.path("a.gltf"), "w") as file:
             json.dump({"asset": {"version": "2.0"}, "buffers": [{"uri": "p.bin", "byteLength": 4}]}, file)
         self.refuse(3, "scene", "make", "a.gltf", "-o", "o.exr", says=["a.gltf"])

@@ -72,7 +72,7 @@ Shot bar_in_front(int width, float coc_px, bool noise) {
 TEST(RealtimeOnTheCpu, IsRefusedInOneLine) {
     const auto cpu = defocus(flat(8, 8, {1, 1, 1, 1}, 2).job("realtime"));
     ASSERT_FALSE(cpu);
-    EXPECT_EQ(cpu.error().message, "job.engine realtime is drawn by a GPU alone: session.device gpu");
+    EXPECT_EQ(cpu.error().message, "job.engine realtime needs a GPU: set session.device gpu");
 }
 
 TEST_F(Realtime, KeepsOneColourAndWhatIsInFocus) {

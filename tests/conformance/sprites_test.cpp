@@ -280,7 +280,7 @@ TEST(Sprites, AScreenNearTheLensDimsALightByItsShareOfTheLens) {
 }
 
 TEST(Sprites, AWallHidesUpToEveryEdgeOfThePicture) {
-    // Sides that are no powers of two.
+    // Sides that are not powers of two.
     const int width = 123, height = 75;
     std::vector<double> sums;
     for (const auto& [x, y] : {std::pair{4.5f, 37.5f}, {118.5f, 37.5f}, {61.5f, 4.5f}, {61.5f, 70.5f}}) {

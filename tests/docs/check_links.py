@@ -44,7 +44,7 @@ def wrong_links(root, page, tests):
             yield f"({target}): {place.name} has no such heading"
     for code in CODE.findall(LINK.sub("", text)):
         if TEST.fullmatch(code) and code not in tests:
-            yield f"`{code}` is no test"
+            yield f"`{code}` is not a test"
         for path in UPWARDS.findall(code):
             if not (page.parent / path).resolve().is_relative_to(root):
                 yield f"`{path}` is not in the repository"

@@ -16,5 +16,5 @@ int main(int argc, char** argv) {
             LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
             ++count;
         }
-    return count == 0;  // nothing replayed is no success
+    return count == 0;  // nothing replayed is not success
 }

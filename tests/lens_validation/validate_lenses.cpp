@@ -3,7 +3,7 @@
 // usage: petzval_validate_lenses [LENSES.json]
 // Without a file: the lenses that ship. With one: a lens file, or a list {"lenses": […]} of them. Exit status
 // 1 when a number is not reproduced, a lens not read or its f-number more than its clear apertures pass; 3
-// when the file is no list of lenses.
+// when the file is not a list of lenses.
 #include "lens_files/expected_values.h"
 #include "lens_files/glass_catalogue.h"
 #include "lens_files/readers.h"

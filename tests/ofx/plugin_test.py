@@ -106,7 +106,7 @@ class Plugin(unittest.TestCase):
                 ({}, self.CLIPS[:2], "no depth"),
                 ({"depthFrom": "file", "depthFile": "none.exr"}, self.CLIPS, "none.exr"),
                 ({"lens": "no-lens"}, self.CLIPS, "no-lens"),
-                ({"look": "{"}, self.CLIPS, "Look: is no JSON"),
+                ({"look": "{"}, self.CLIPS, "Look: is not JSON"),
                 ({"look": "https://x.org/#lens=1.!!"}, self.CLIPS, "link"),
                 ({"depthKind": "device"}, self.CLIPS, "range"),
                 ({"focusFrom": "point", "focusPoint": "999,0"}, self.CLIPS, "focus point"),

@@ -46,7 +46,7 @@ Json finished(Json report, const Stopwatch& watch) {
 }
 
 std::string report_text(const Json& report, int indent) {
-    // A file name that is no UTF-8 has U+FFFD in it afterwards.
+    // A file name that is not UTF-8 has U+FFFD in it afterwards.
     const std::string text = report.dump(-1, ' ', false, Json::error_handler_t::replace);
     return finished_record(text, indent, [](const std::string& line) { return in_flags(line); });
 }

@@ -5,7 +5,7 @@
 namespace petzval::cli {
 namespace {
 
-// "off" and "on" are the trade's words; "rendered" and "thin-lens" those of reports and older scripts.
+// "off" and "on" are the usual words; reports and older scripts use "rendered" and "thin-lens".
 Result<ImageScale> parse_breathing(const std::string& text) {
     static const NameTable<ImageScale> kWords{{"off", ImageScale::Rendered},
                                               {"on", ImageScale::ThinLens},

@@ -128,7 +128,7 @@ std::size_t end_of_word(std::string_view text, std::size_t start) {
     return end;
 }
 
-// A part of a path is no field.
+// A part of a path is not a field.
 bool is_in_path(std::string_view text, std::size_t start, std::size_t end) {
     const auto joins = [](char c) { return c == '/' || c == '-' || c == '.' || (c >= 'A' && c <= 'Z'); };
     return (start > 0 && joins(text[start - 1])) ||

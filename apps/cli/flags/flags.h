@@ -101,7 +101,7 @@ private:
     void add(const std::string& name, const std::string& placeholder, const std::string& help,
              std::function<void(const std::string&)> take);
     void add_switch(const std::string& name, const std::string& help, std::function<void(bool)> take);
-    static std::string long_name(const std::string& names);  // "-o,--output" is spoken of as "-o"
+    static std::string long_name(const std::string& names);  // "-o,--output" is shown as "-o"
 
     Verb& verb_;
     std::string heading_;

@@ -40,7 +40,7 @@ std::vector<std::string> grouped(const std::string& file, const std::vector<Erro
     return sentences;
 }
 
-// The path of a file, which the guard of the run learns, or a link, whose "#" is no frame number.
+// The path of a file, which the guard of the run learns, or a link, whose "#" is not a frame number.
 Result<std::string> parse_look(const std::string& text) {
     auto path = parse_text(text);
     std::error_code ignored;

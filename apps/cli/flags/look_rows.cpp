@@ -245,7 +245,7 @@ std::vector<LookRow> rows_of_engines() {
             "keep radii up to N px sharp (default 0); wgld: the band's fraction of the depth range (default "
             "0.2)"),
         row("Engine gaussian", "--depth-offset", "gaussian.depth_offset", value("N", parse_number),
-            "wgld: added to depth of 0 to 1; by default the focus lies in the band"),
+            "wgld: offset added to the depth of 0 to 1 (default: puts the focus into the band)"),
         row("Engine gaussian", "--depth-along", "gaussian.depth_along",
             one_of({{"axis", "\"axis\""}, {"ray", "\"ray\""}}),
             "wgld: measure depth along the axis (default) or along the ray, as published"),

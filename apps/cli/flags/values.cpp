@@ -262,7 +262,7 @@ Result<std::vector<BarrelRim>> parse_barrel(const std::string& text) {
         const auto radius = parse_length_mm(numbers[0]);
         const bool behind = numbers[1].rfind('-', 0) == 0;
         const std::string length = numbers[1].substr(behind ? 1 : 0);
-        // A rim at the pupil itself has no distance, which is no length.
+        // A rim at the pupil itself has no distance, which is not a length.
         const auto zero = parse_number(length);
         const auto distance = zero && *zero == 0 ? Result<double>(0.0) : parse_length_mm(length);
         if (!radius || !distance) return wrong;

@@ -14,7 +14,7 @@ struct FlagHelp {
 
     bool is_argument() const { return names.empty(); }
     std::string shown() const;                 // "-o, --output OUT"
-    std::vector<std::string> choices() const;  // of "off|on"; none where it is no choice
+    std::vector<std::string> choices() const;  // of "off|on"; none where it is not a choice
     bool is_file() const;
 };
 

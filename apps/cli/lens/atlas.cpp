@@ -104,11 +104,12 @@ void add_lens_atlas(Verb& lens, Action& chosen) {
         .value("--zones", "N", "rings of the frame from its middle to its corners, 1 to 64 (default 5)",
                parse_count, flags->zones);
     FlagGroup(verb, "Output")
-        .value("-o,--output", "FOLDER", "for atlas.json and atlas.bin, made if missing", parse_text,
+        .value("-o,--output", "FOLDER", "folder for atlas.json and atlas.bin, created if missing", parse_text,
                flags->folder)
         .value("--width", "PX", "width of the picture that the camera takes (default 1920)", parse_size_px,
                flags->width_px)
-        .value("--height", "PX", "its height (default 9/16 of the width)", parse_size_px, flags->height_px);
+        .value("--height", "PX", "height of that picture (default 9/16 of the width)", parse_size_px,
+               flags->height_px);
     flags->overwrite.add_to(verb, false);
     flags->run.add_json_to(verb);
     flags->run.add_log_to(verb, true);

@@ -33,9 +33,10 @@ struct PictureFlags : MountFlags {
             .value("--width", "PX", "width of the picture that the camera takes (default 1920)",
                    parse_size_px, width_px);
         FlagGroup(verb, has_raw ? "Output" : "")
-            .on("--raw", "keep colours that no screen has: negative values in fringes", raw);
+            .on("--raw", "keep colours outside the screen's gamut: negative values in fringes", raw);
         FlagGroup(verb, is_table ? "" : "Output")
-            .value("--height", "PX", "its height (default 9/16 of the width)", parse_size_px, height_px);
+            .value("--height", "PX", "height of that picture (default 9/16 of the width)", parse_size_px,
+                   height_px);
         overwrite.add_to(verb, false);
         develop.add_to(verb);
         run.add_json_to(verb);

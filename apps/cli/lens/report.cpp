@@ -115,8 +115,8 @@ void add_lens_report(Verb& lens, Action& chosen) {
         .on("--all", "a page for every lens that ships, a contact sheet and a comparison", flags->all);
     FlagGroup(verb, "Output")
         .value("-o,--output", "PATH",
-               "a page, such as sheet.html, or a folder, made if missing (default: here)", parse_text,
-               flags->output);
+               "a page, such as sheet.html, or a folder, created if missing (default: the current folder)",
+               parse_text, flags->output);
     flags->overwrite.add_to(verb, false);
     flags->run.add_json_to(verb);
     flags->run.add_log_to(verb, true);

@@ -204,7 +204,7 @@ void add_lens_list(Verb& lens, Action& chosen) {
                           "petzval lens list double gauss --sort fstop");
     auto flags = std::make_shared<ListFlags>();
     FlagGroup(verb, "Lenses")
-        .arguments("WORDS", "only lenses whose names, title, kind, year or history hold every word",
+        .arguments("WORDS", "only lenses whose names, title, kind, year or history contain every word",
                    flags->words)
         .choice("--sort", "order of the list (default shelf: ideal, curves, prescriptions)", kOrders,
                 flags->order);

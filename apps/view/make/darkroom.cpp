@@ -125,7 +125,7 @@ void print_light(const Negative& of, const Rect& part, const Darkroom::OcioCodes
     print.width = light.width(), print.height = light.height();
     isolate(light, of.channel);
     DevelopSettings settings = of.develop;
-    if (of.channel == Channel::Alpha)  // coverage is no light
+    if (of.channel == Channel::Alpha)  // coverage is not light
         settings.exposure_stops = 0, settings.tone = ToneCurve::None, settings.transfer = Transfer::Linear;
     if (of.ocio && ocio_codes && of.channel != Channel::Alpha) {
         const float exposure = float(std::exp2(settings.exposure_stops));

@@ -38,7 +38,7 @@ constexpr std::size_t kMostPictures = 16;
 constexpr std::size_t kTimesBrought = 16, kMostBytesAhead = std::size_t(512) << 20;
 
 Error nonsense(const std::string& why) {
-    return {ErrorCode::InvalidFile, "the pushed data is no picture: " + why};
+    return {ErrorCode::InvalidFile, "the pushed data is not a picture: " + why};
 }
 
 std::string letter_of(const std::string& channel) {
@@ -265,8 +265,8 @@ Result<std::unique_ptr<TevListener>> TevListener::open(int port, std::function<v
     if (made < 0 || ::bind(made, as_any, sizeof address) != 0 || ::listen(made, 4) != 0) {
         const std::string why = std::strerror(errno);
         if (made >= 0) ::close(made);
-        return Error{ErrorCode::Unsupported, "port " + std::to_string(port) +
-                                                 " cannot be listened on: " + why + " (is tev running?)"};
+        return Error{ErrorCode::Unsupported,
+                     "port " + std::to_string(port) + " cannot be opened: " + why + " (is tev running?)"};
     }
     return std::unique_ptr<TevListener>(new TevListener(made, std::move(wake)));
 }

@@ -105,7 +105,7 @@ void App::open(const std::string& path) {
     if (pattern && *pattern) {
         const auto there = (*pattern)->frames_there();
         if (!there) return void(error = there.error().message);
-        if (there->empty()) return void(error = path + ": no frame is there");
+        if (there->empty()) return void(error = path + ": no frame exists");
         line.frames = *there;
         line.frame = line.first = there->front();
         line.last = there->back();

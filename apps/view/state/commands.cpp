@@ -74,7 +74,7 @@ Status toggle(App& app, const Words& words) {
     const auto now = field_text(app, words[0]);
     if (!now) return now.error();
     const bool is_switch = *now == "on" || *now == "off" || *now == "true" || *now == "false";
-    if (!is_switch) return invalid(words[0] + " is no switch");
+    if (!is_switch) return invalid(words[0] + " is not a switch");
     const bool on = *now == "on" || *now == "true";
     return set_field(app, words[0],
                      *now == "on" || *now == "off" ? (on ? "off" : "on") : (on ? "false" : "true"));
@@ -125,7 +125,7 @@ Status show(App& app, const Words& words) {
 // Shows a buffer of the scene's article, by its label.
 Status buffer(App& app, const Words& words) {
     const Article* article = article_of(app.setup().scene);
-    if (!article) return invalid("this is no article; --scene hexadrive, wgld and unity are");
+    if (!article) return invalid("this is not an article; --scene hexadrive, wgld and unity are");
     for (const ArticleBuffer& one : article->buffers) {
         if (one.label != words[0]) continue;
         if (!one.stage.empty())

@@ -49,8 +49,8 @@ public:
         mix_blurs(plan, out.view(), control);
     }
     void draw_realtime(const engine::RealtimePlan&, Target, const Control&) const override {
-        throw Failed{{ErrorCode::Unsupported,
-                      "job.engine realtime is drawn by a GPU alone: session.device gpu", "job.engine"}};
+        throw Failed{{ErrorCode::Unsupported, "job.engine realtime needs a GPU: set session.device gpu",
+                      "job.engine"}};
     }
     Work add_lights(const engine::LightsPlan& plan, const Atlas& atlas, Target out,
                     const Control& control) const override {

@@ -69,7 +69,7 @@ Result<std::vector<ChannelGroup>> of_wanted_layer(const std::string& path, const
     return Error{ErrorCode::InvalidArgument,
                  printable(path, 4096) + ": has no colour layer or part '" + printable(layer) + "'" +
                      did_you_mean(layer, names) +
-                     (names.empty() ? "; its colour has no name, and is read where none is asked for"
+                     (names.empty() ? "; its colour has no name and is read by default"
                                     : "; it has " + listed(names)) +
                      what_of_no_colour(layout, layer)};
 }
@@ -141,7 +141,7 @@ Result<ColourChoice> choose_colour(const std::string& path, const Layout& layout
         std::vector<std::string> names;
         for (const Part& p : layout.parts)
             for (const Channel& c : p.channels) names.push_back(c.name);
-        const char* hint = with_data ? "its layers hold other data, read.layer takes one all the same"
+        const char* hint = with_data ? "its layers hold other data; read.layer can still choose one"
                                      : "all of R, G and B are needed, or Y";
         return invalid_file(path,
                             std::string("has no colour: ") + hint + "; its channels are " + listed(names));

@@ -53,7 +53,7 @@ std::string last_component(const std::string& layer) {
     return lower(dot == std::string::npos ? layer : layer.substr(dot + 1));
 }
 
-// The Z of a vector (normal, position, motion) is no depth: it comes with an X, or its layer says so.
+// The Z of a vector (normal, position, motion) is not depth: it comes with an X, or its layer says so.
 bool is_vector_component(const Part& part, const Channel& channel) {
     for (const Channel& c : part.channels)
         if (c.layer == channel.layer && c.view == channel.view && lower(c.base) == "x") return true;
@@ -68,7 +68,7 @@ std::vector<Candidate> candidates_of(const Layout& layout) {
         if (!part.readable) continue;
         for (const Channel& c : part.channels) {
             const std::string layer = last_component(c.layer.empty() ? part.label : c.layer);
-            // Mist is no distance: 0…1, by a curve.
+            // Mist is not a distance: 0…1, by a curve.
             if (c.subsampled() || is_vector_component(part, c) || layer == "mist") continue;
             all.push_back({p, &c, layer, lower(c.base)});
         }
@@ -222,9 +222,8 @@ Result<DepthChoice> choose_depth(const std::string& path, const Layout& layout, 
         for (const Channel& c : part.channels)
             if (last_component(c.layer.empty() ? part.label : c.layer) == "mist")
                 return invalid_file(
-                    path, "has no depth channel but mist, which is no distance; read.depth_channel " +
-                              printable(c.name) +
-                              " depth.kind mist depth.range START,END takes it all the same");
+                    path, "has no depth channel but mist, which is not a distance; read.depth_channel " +
+                              printable(c.name) + " depth.kind mist depth.range START,END reads it as depth");
     return invalid_file(path,
                         "has no depth channel (looked for Z, depth.Z, ….Depth.Z, VRayZDepth, depth.R, P); "
                         "name one with read.depth_channel or a file with read.depth_file; its channels are " +

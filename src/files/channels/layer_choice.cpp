@@ -15,7 +15,7 @@ bool holds(const std::vector<std::string>& list, const std::string& text) {
     return std::find(list.begin(), list.end(), text) != list.end();
 }
 
-// Colours of surfaces, which are no light.
+// Colours of surfaces, which are not light.
 bool is_surface_name(const std::string& name) {
     if (name.find("albedo") != std::string::npos || name.find("occlusion") != std::string::npos) return true;
     return holds({"diffcol", "glosscol", "transcol", "ao", "facing", "fresnel", "mask", "matte", "masks",

@@ -91,7 +91,7 @@ MotionChoice both_ways(const std::vector<Group>& groups) {
 
 MotionChoice single(const VectorChoice& v) {
     return {std::nullopt, v,
-            "motion: " + printable(v.x) + ", " + printable(v.y) + ": taken for the way to the frame after"};
+            "motion: " + printable(v.x) + ", " + printable(v.y) + ": read as the motion to the next frame"};
 }
 
 Result<std::optional<MotionChoice>> named(const std::string& path, const Layout& layout,

@@ -59,7 +59,7 @@ TEST(HostileFile, WhatIsNoPictureIsNamedAsWhatItIs) {
     write_bytes(folder / "empty.exr", "");
     expect_refused(folder / "empty.exr", "is empty");
     write_bytes(folder / "text.exr", "dear diary, today I rendered\n");
-    expect_refused(folder / "text.exr", "is no picture that can be read");
+    expect_refused(folder / "text.exr", "is not a picture that can be read");
     ASSERT_EQ(::mkfifo((folder / "pipe.exr").c_str(), 0600), 0);
     expect_refused(folder / "pipe.exr", "not a regular file");
     expect_refused("/dev/zero", "not a regular file");

@@ -114,7 +114,7 @@ Status read_layers(const ExrFile& exr, std::vector<LayerChoice>& layers, Frame& 
         if (read.spectrum && !read.is_light)
             return Error{ErrorCode::InvalidArgument,
                          "read.layers " + read.names.front() +
-                             " names a lamp, but holds more than the colour: it is no share of its light",
+                             " names a lamp, but holds more than the colour: it is not a share of its light",
                          "read.layers"};
         if (layers[i].channels[3].empty() || has_alpha_of(frame.colour, read.colour)) continue;
         LayerChoice alpha{{read.names.front() + ".A"}, layers[i].part, {layers[i].channels[3]}};

@@ -103,7 +103,7 @@ std::optional<PrimariesConversion> primaries_of(const ExrFile& exr, std::size_t 
                                      number((*from)[1]) + (neutral ? " (adoptedNeutral)" : "") +
                                      " to that of Rec.709 (Bradford), and back when written");
     } else if (!is_rec709(xy)) {
-        frame.warnings.emplace_back("its chromaticities describe no colour space; Rec.709 is assumed");
+        frame.warnings.emplace_back("its chromaticities do not describe a colour space; Rec.709 is assumed");
     }
     return conversion;
 }
@@ -161,7 +161,7 @@ Status check_deep(const ExrFile& exr, const Choices& choices, const ReadOptions&
         if (channel.layer != c.layer || channel.view != c.view) dropped.push_back(channel.name);
     if (!dropped.empty())
         frame.warnings.push_back("deep channels cannot be kept in a flat output: " + listed(dropped));
-    frame.detected.emplace_back("depth: of its samples alone, a flat output holds none");
+    frame.detected.emplace_back("depth: read from the deep samples; a flat output holds none");
     return Done{};
 }
 

@@ -105,10 +105,10 @@ bool is_ours(const struct stat& about) {
 std::string why_no_use(const std::string& path) {
     struct stat about {};
     if (stat(path.c_str(), &about) != 0) return "";
-    if (!S_ISDIR(about.st_mode)) return "which is no folder";
+    if (!S_ISDIR(about.st_mode)) return "which is not a folder";
     return is_ours(about)
                ? ""
-               : "where others may write: make it your own (chmod -R go-w), or give another folder";
+               : "where other users may write: make it your own (chmod -R go-w), or give another folder";
 }
 
 // A folder that only this user may enter, if it is new. Failure shows when the segment is written.

@@ -208,7 +208,7 @@ TEST_F(KernelStoreTest, AFolderThatOthersCanWriteToIsNotUsedAndThatIsSaid) {
 TEST_F(KernelStoreTest, AFileInPlaceOfTheFolderIsSpokenOf) {
     std::ofstream(folder_) << "no folder";
     expect_the_kernels_of_the_lens(*kept_lens(), choice());
-    EXPECT_NE(store_->warning().find("is no folder"), std::string::npos) << store_->warning();
+    EXPECT_NE(store_->warning().find("is not a folder"), std::string::npos) << store_->warning();
     forget();
     EXPECT_EQ(fs::file_size(folder_), 9u);
 }

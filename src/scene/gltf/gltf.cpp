@@ -269,11 +269,11 @@ private:
         };
         const auto places = numbers(attribute("POSITION"), TINYGLTF_TYPE_VEC3);
         if (!places) return places.error();
-        if (places->type != TINYGLTF_COMPONENT_TYPE_FLOAT) return broken("positions that are no floats");
+        if (places->type != TINYGLTF_COMPONENT_TYPE_FLOAT) return broken("positions that are not floats");
         Mesh mesh;
         for (std::size_t i = 0; i < places->count; ++i) {
             const Vec3 p = here.point(places->at(i, 0), places->at(i, 1), places->at(i, 2));
-            if (!is_somewhere(p)) return broken("a vertex that is nowhere");
+            if (!is_somewhere(p)) return broken("a vertex that is not finite");
             mesh.positions.push_back(p);
         }
         if (Status done = take_triangles(part.indices, mesh); !done) return done;
@@ -293,11 +293,11 @@ private:
             const auto all = numbers(index, TINYGLTF_TYPE_SCALAR);
             if (!all) return all.error();
             if (all->type == TINYGLTF_COMPONENT_TYPE_FLOAT)
-                return broken("indices that are no whole numbers");
+                return broken("indices that are not whole numbers");
             for (std::size_t i = 0; i < all->count; ++i) {
                 const double vertex = all->at(i, 0);
                 if (vertex < 0 || vertex >= double(mesh.positions.size()))
-                    return broken("a triangle of vertices that are not there");
+                    return broken("a triangle of vertices that do not exist");
                 order.push_back(std::uint32_t(vertex));
             }
         } else {
@@ -431,7 +431,7 @@ bool read_file(std::vector<unsigned char>* bytes, std::string* wrong, const std:
         if (wrong) *wrong += path + why + "\n";
         return false;
     };
-    if (!is_file(path, failed)) return refuse(" is missing, or is no regular file");
+    if (!is_file(path, failed)) return refuse(" is missing, or is not a regular file");
     const auto text = text_of_file(path, kMost);
     auto& first = *static_cast<std::optional<Error>*>(failed);
     if (!text && text.error().code == ErrorCode::ReadFailed && !first) first = text.error();
@@ -452,7 +452,7 @@ Status load(const std::string& path, tinygltf::Model& model, std::vector<std::st
     if (failed) return *failed;
     if (!fine)
         return Error{ErrorCode::InvalidFile,
-                     path + ": no glTF that can be read" + (wrong.empty() ? "" : ": " + first_line(wrong))};
+                     path + ": not a glTF file that can be read" + (wrong.empty() ? "" : ": " + first_line(wrong))};
     if (!warning.empty()) warnings.push_back(path + ": " + first_line(warning));
     const auto& needed = model.extensionsRequired;
     const auto unread = std::find_if_not(needed.begin(), needed.end(), [](const std::string& name) {
@@ -483,7 +483,7 @@ Result<GltfScene> add_gltf(World& world, const std::string& path, int frame, con
         return Error{ErrorCode::OutOfMemory, path + ": not enough memory"};
     } catch (const std::exception& thrown) {
         return Error{ErrorCode::InvalidFile,
-                     path + ": no glTF that can be read: " + first_line(thrown.what())};
+                     path + ": not a glTF file that can be read: " + first_line(thrown.what())};
     }
 }
 

@@ -39,7 +39,7 @@ std::vector<LightPoint> drawable_points(const Rendered& rendered,
     };
     report(not_finite, "are not finite and were left out");
     report(negative, "have negative light, depth or size and were left out");
-    report(outside, "lie outside the frame; what their discs throw into it is drawn");
+    report(outside, "lie outside the frame; parts of their discs inside it are drawn");
     return points;
 }
 

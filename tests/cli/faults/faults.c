@@ -61,7 +61,7 @@ int posix_memalign(void** to, size_t alignment, size_t size) {
     return made ? 0 : ENOMEM;
 }
 
-/* Standard output and error are no files of the shot. */
+/* Standard output and error are not files of the shot. */
 static int is_file(int file) {
     struct stat about;
     return file > 2 && fstat(file, &about) == 0 && S_ISREG(about.st_mode);

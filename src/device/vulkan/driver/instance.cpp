@@ -66,7 +66,7 @@ Status Instance::create() {
     if (!library_) return unsupported("the loader of Vulkan is not installed (libvulkan.so.1)");
     vk_.vkGetInstanceProcAddr =
         reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(library_, "vkGetInstanceProcAddr"));
-    if (!vk_.vkGetInstanceProcAddr) return unsupported("libvulkan.so.1 is no loader of Vulkan");
+    if (!vk_.vkGetInstanceProcAddr) return unsupported("libvulkan.so.1 is not a loader of Vulkan");
     PETZVAL_VK_LOADER(PETZVAL_VK_FIND)
     if (!vk_.vkCreateInstance || !vk_.vkEnumerateInstanceVersion)
         return unsupported("the loader of Vulkan is older than Vulkan 1.1");
