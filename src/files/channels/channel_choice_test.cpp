@@ -55,7 +55,8 @@ TEST(ChannelChoice, DepthOfUnrealAndOctaneIsFoundAndMistIsNone) {
     EXPECT_EQ(depth_of(layout({part("", {"R", "G", "B", "FinalImageWorldDepth.R"})})),
               "0 FinalImageWorldDepth.R");
     EXPECT_EQ(depth_of(layout({part("", {"R", "G", "B", "Z-depth.R"})})), "0 Z-depth.R");
-    EXPECT_THAT(depth_of(layout({part("", {"R", "G", "B", "ViewLayer.Mist.Z"})})), HasSubstr("not a distance"));
+    EXPECT_THAT(depth_of(layout({part("", {"R", "G", "B", "ViewLayer.Mist.Z"})})),
+                HasSubstr("not a distance"));
 }
 
 TEST(ChannelChoice, NamesThatCanBeTypedAreListed) {

@@ -451,8 +451,8 @@ Status load(const std::string& path, tinygltf::Model& model, std::vector<std::st
                                              : loader.LoadASCIIFromFile(&model, &wrong, &warning, path);
     if (failed) return *failed;
     if (!fine)
-        return Error{ErrorCode::InvalidFile,
-                     path + ": not a glTF file that can be read" + (wrong.empty() ? "" : ": " + first_line(wrong))};
+        return Error{ErrorCode::InvalidFile, path + ": not a glTF file that can be read" +
+                                                 (wrong.empty() ? "" : ": " + first_line(wrong))};
     if (!warning.empty()) warnings.push_back(path + ": " + first_line(warning));
     const auto& needed = model.extensionsRequired;
     const auto unread = std::find_if_not(needed.begin(), needed.end(), [](const std::string& name) {
