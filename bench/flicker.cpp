@@ -1,4 +1,4 @@
-// petzval_bench_flicker SHOT FOLDER WIDTH FRAMES POINTS: one shot through `scatter`, and its truth:
+// petzval_bench_flicker SHOT FOLDER WIDTH FRAMES POINTS ENGINE: one shot through an engine, and its truth:
 // `reference` with POINTS pupil points and all layers known, or as many lens samples of the ray tracer where
 // the scene moves. Frames as PNG, a contact sheet of both with the change of the error between frames (grey:
 // none), and the measures of tests/flicker/flicker.h as JSON. Without words, the names of the shots.
@@ -81,7 +81,7 @@ int main(int count, char** words) {
         for (const NamedShot& shot : kShots) std::printf("%s\n", shot.name);
         return 0;
     }
-    if (count != 6) fail("SHOT FOLDER WIDTH FRAMES POINTS");
+    if (count != 7) fail("SHOT FOLDER WIDTH FRAMES POINTS ENGINE");
     const int width = std::atoi(words[3]), frames = std::atoi(words[4]), points = std::atoi(words[5]);
     for (const NamedShot& named : kShots) {
         if (named.name != std::string(words[1])) continue;
@@ -90,7 +90,7 @@ int main(int count, char** words) {
                                          : flicker::focus_pull(named.scene, size, frames, named.from_m,
                                                                named.to_m, named.wider);
         if (named.temporal > 0) flicker::look_around(shot, named.temporal);
-        const Frames result = flicker::defocused(shot, "scatter");
+        const Frames result = flicker::defocused(shot, words[6]);
         const Frames truth =
             named.moves ? flicker::truths_of(shot) : flicker::defocused(shot, "reference", points);
         const flicker::Steadiness found = flicker::measure(result, truth);

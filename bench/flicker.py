@@ -1,12 +1,12 @@
 """Does anything pop, crawl or flicker? Focus pulls and camera moves, as contact sheets, videos and numbers.
 
-Each shot goes through `scatter`. Focus pulls stay on one picture with all hidden layers known, so that `reference` is
+Each shot goes through --engine (`realtime`: on the first GPU). Focus pulls stay on one picture with all hidden layers known, so that `reference` is
 the truth; camera moves have to guess what is hidden, and their truth is what a ray tracer saw through the lens, whose
 own noise counts. tests/flicker/flicker.h defines the measures; the worst pop is the largest change of an 8 x 8 block
 between frames beyond the truth's. The third row of every contact sheet in build/bench/flicker draws the change of the
 error, eight times as strong. Videos are made if ffmpeg is there.
 
-Usage: ./dev bench flicker [--shots A,B] [--width N] [--frames N] [--points N]
+Usage: ./dev bench flicker [--shots A,B] [--engine NAME] [--width N] [--frames N] [--points N]
 """
 import argparse
 import json
@@ -36,12 +36,13 @@ def main():
     parser.add_argument("--width", type=int, default=240)
     parser.add_argument("--frames", type=int, default=12, help="up to 48 where the scene moves")
     parser.add_argument("--points", type=int, default=256, help="pupil points, or lens samples, of the truth")
+    parser.add_argument("--engine", default="scatter")
     given = parser.parse_args()
     OUT.mkdir(parents=True, exist_ok=True)
     body = []
     for shot in given.shots:
         print(shot, file=sys.stderr)
-        result = subprocess.run([FLICKER, shot, OUT, *map(str, (given.width, given.frames, given.points))],
+        result = subprocess.run([FLICKER, shot, OUT, *map(str, (given.width, given.frames, given.points, given.engine))],
                                 stdout=subprocess.PIPE, text=True)
         if result.returncode:
             sys.exit(result.returncode)

@@ -178,8 +178,14 @@ inline Frames truths_of(const Shot& shot) {
 
 inline Frames defocused(const Shot& shot, const std::string& engine, int pupil_points = 128) {
     Frames frames;
-    for (std::size_t t = 0; t < shot.cameras.size(); ++t)
-        frames.push_back(std::move(defocus(job_of(shot, t, engine, pupil_points)).value().image));
+    SessionSettings settings;
+    if (engine == "realtime") settings.device = "gpu";
+    Session session(settings);
+    for (std::size_t t = 0; t < shot.cameras.size(); ++t) {
+        DefocusJob job = job_of(shot, t, engine, pupil_points);
+        if (engine == "realtime") job.behind = nullptr;  // it takes no hidden layers
+        frames.push_back(std::move(session.defocus(job).value().image));
+    }
     return frames;
 }
 
