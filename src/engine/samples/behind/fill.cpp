@@ -82,7 +82,7 @@ public:
         if (!reached || outline_px < kCloseToOutlinePx)
             for (std::size_t k = 0; k < kDirections; k += every_)
                 if (k % every_first_ != 0) look(k);
-        if (reached) stack(x, y, own, hits, hidden);
+        if (reached) stack(x, y, hits, hidden);
     }
 
 private:
@@ -142,7 +142,7 @@ private:
     // The surfaces met, nearest first. The farthest fills the rest; a nearer one takes the share that it has
     // of the surroundings, so a wire behind a leaf continues as a wire. Where its outline continues hidden,
     // it takes all on its side.
-    void stack(int x, int y, float own_px, Hits& hits, std::vector<HiddenGuess>& hidden) const {
+    void stack(int x, int y, Hits& hits, std::vector<HiddenGuess>& hidden) const {
         float all_behind = 0, unhidden_behind = 0;
         std::array<HiddenGuess, kSurfaces + 1> surfaces;
         std::size_t n = 0;
@@ -154,7 +154,7 @@ private:
                     if (f.found) farthest = std::max(farthest, f.coc_px);
             if (farthest < -1e29f) break;
             Met met;
-            HiddenGuess next = surface(x, y, own_px, hits, farthest, met);
+            HiddenGuess next = surface(x, y, hits, farthest, met);
             const float inside = met.within / met.all;
             const float behind = all_behind + inside * (unhidden_behind - all_behind);
             next.seen.share = first ? 1 : sharpened(met.within / (met.within + behind + 1e-9f));
@@ -195,7 +195,7 @@ private:
     }
 
     // The estimate of the surface behind (x, y) whose farthest hit is at `coc_px`. Its hits are used up.
-    HiddenGuess surface(int x, int y, float own_px, Hits& hits, float coc_px, Met& met) const {
+    HiddenGuess surface(int x, int y, Hits& hits, float coc_px, Met& met) const {
         Votes votes;
         HiddenTextures::Point hidden(textures_, x, y);
         const float nearest_px = nearest_of_surface(hits, coc_px);
@@ -204,12 +204,9 @@ private:
                 if (f.found && f.coc_px >= nearest_px) return &f;
             return nullptr;
         };
-        const auto reached = [&](const Found* f) {
-            return f && f->distance_px <= SurfaceSearch::reach_px(own_px, f->coc_px);
-        };
         const auto passes = [&](const Found* f) { return f ? known_.passes(f->place(), x, y) : 0; };
-        const auto meet = [&](const Found& f, float weight) {
-            const float share = weight / f.distance_px;
+        const auto meet = [&](const Found& f) {
+            const float share = 1 / f.distance_px;
             met.all += share;
             const HiddenOutlines::Open open = outlines_.open({f.x, f.y}, {x, y}, f.coc_px);
             met.within += share * open.within, met.unhidden += share * open.unhidden;
@@ -220,11 +217,8 @@ private:
         constexpr std::size_t kPairs = kDirections / 2;
         for (std::size_t k = 0; k < kPairs; ++k) {
             const Found *a = take(k), *b = take(k + kPairs);
-            // A surface seen on both sides within reach most likely continues between them, unless an edge
-            // cuts one side off.
-            const float weight = reached(a) && reached(b) ? completion_model.share_pair : 1;
-            if (a) meet(*a, weight);
-            if (b) meet(*b, weight);
+            if (a) meet(*a);
+            if (b) meet(*b);
             const float from_a = passes(a), from_b = passes(b), both = from_a * from_b;
             if (a && b) add_pair(hidden, *a, *b, k, both, votes);
             if (a && from_a > both) add_alone(hidden, *a, k, nearest, from_a - both, votes);
