@@ -241,7 +241,7 @@ typedef struct petzval_report petzval_report;
 PETZVAL_C_API petzval_status petzval_defocus(petzval_session* session, const petzval_shot* shot,
                                              const petzval_look* look, const petzval_control* control,
                                              const petzval_pixels* out, petzval_report** report);
-/* How many pixels around a region its result depends on: 160, plus four times the largest radius or the
+/* How many pixels around a region its result depends on: 175, plus four times the largest radius or the
  * farthest reach of the lens's light. A host that has these pixels gets the same region.
  * Errors: invalid_file, unsupported. */
 PETZVAL_C_API petzval_status petzval_region_margin_px(petzval_session* session, const petzval_shot* shot,

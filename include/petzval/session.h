@@ -109,7 +109,7 @@ public:
                               const Control& control = {});
 
     // Margin around a region that affects it, in pixels: four times the largest radius, or the reach of the
-    // lens's light at that radius if larger, and 160 for the search of hidden outlines. Errors: those of
+    // lens's light at that radius if larger, and 175 for the search of hidden outlines. Errors: those of
     // defocus().
     Result<int> region_margin_px(const Rendered& rendered, const Look& look, const Control& control = {});
     Result<int> region_margin_px(const DefocusJob& job);

@@ -104,11 +104,11 @@ typedef struct petzval_pass_frame {
 
 PETZVAL_C_API petzval_status petzval_pass_record(petzval_pass* pass, const petzval_pass_frame* frame);
 
-/* Milliseconds of the device for measure, split, reach, gather and combine, in the last frame that was
+/* Writes five milliseconds of the device, for measure, split, reach, gather and combine, of the last frame
  * recorded into a slot. Waits for nothing: PETZVAL_INVALID_ARGUMENT while that frame has not run, or if
  * settings.measures_times is 0. */
 PETZVAL_C_API petzval_status petzval_pass_times(const petzval_pass* pass, uint32_t slot,
-                                                double milliseconds[5]);
+                                                double* milliseconds);
 
 #ifdef __cplusplus
 }

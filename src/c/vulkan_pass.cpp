@@ -178,7 +178,7 @@ petzval_status petzval_pass_record(petzval_pass* pass, const petzval_pass_frame*
     return guarded([&] { return record(*pass->host, c::taken(frame)); });
 }
 
-petzval_status petzval_pass_times(const petzval_pass* pass, uint32_t slot, double milliseconds[5]) {
+petzval_status petzval_pass_times(const petzval_pass* pass, uint32_t slot, double* milliseconds) {
     if (!pass) return missing("pass");
     if (!milliseconds) return missing("milliseconds");
     return guarded([&] {

@@ -122,8 +122,8 @@ TEST(RegionMargin, GrowsWithTheRadiusAndARegionOutsideIsRefused) {
     Session session;
     const auto margin = session.region_margin_px(shot.job("scatter"));
     ASSERT_TRUE(margin);
-    EXPECT_GE(*margin, 4 * 5 + 160);
-    EXPECT_LE(*margin, 4 * 7 + 160);
+    EXPECT_GE(*margin, 4 * 5 + 175);
+    EXPECT_LE(*margin, 4 * 7 + 175);
     const auto outside = session.defocus(shot.job("scatter"), {.region = Rect{64, 0, 90, 10}});
     ASSERT_FALSE(outside);
     EXPECT_EQ(outside.error().code, ErrorCode::InvalidArgument);

@@ -73,7 +73,7 @@ class Stages(unittest.TestCase):
                     rendered.colour = session.stage(stage, rendered, look).image
                     self.assertFalse(np.array_equal(rendered.colour, before), stage)
                 np.testing.assert_array_equal(rendered.colour, expected)
-            with self.assertRaisesRegex(petzval.InvalidArgument, "blur, falloff and glare"):
+            with self.assertRaisesRegex(petzval.InvalidArgument, "blur, falloff, glare"):
                 session.stage("dissolve", rendered, look)
 
     def test_the_blur_makes_layers_too(self):
