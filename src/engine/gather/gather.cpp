@@ -37,8 +37,7 @@ double working_bytes_per_pixel(const EngineView& input) {
     const bool flat = input.samples.deep.empty() && input.samples.plate.empty() &&
                       input.samples.layers.empty() && input.samples.holdout.empty();
     if (!flat || input.services.max_memory_bytes == 0) return kMost;
-    return kPerPixel +
-           kPerSilhouettePixel * share_at_silhouettes(input.samples.coc_px, *input.services.workers);
+    return kPerPixel + kPerSilhouettePixel * silhouettes_of(input.samples.coc_px, *input.services.workers).at;
 }
 
 Strips plan_strips(const EngineView& input, const RingSizes& sizes, const BrightPoints& found) {

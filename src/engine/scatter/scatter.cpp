@@ -57,17 +57,18 @@ constexpr std::size_t kFixedWorkingBytes = std::size_t(56) << 20;
 // Strips of wide frames that are narrower are mostly halo.
 constexpr std::size_t kDefaultWorkingBytes = std::size_t(2000) << 20;
 
-// Peak memory of a flat picture in one strip, as measured on whole commands
-// (docs/journal/2026-11-23-memory-and-file-writing.md, Fewer bytes). The estimate for several strips, and for
-// deep pictures, is less certain and larger.
+// Peak memory of a flat picture in one strip, fitted to whole commands: 12 scenes at 1920 x 1080 and 3840 x
+// 2160 (docs/results/memory.md). The estimate for several strips, and for deep pictures, is less
+// certain and larger.
 std::size_t bytes_at_once(const EngineView& input, bool has_spare) {
-    constexpr double kPerPixel = 50, kPerSilhouettePixel = 345, kFixed = 52 << 20, kAberrated = 28 << 20;
+    constexpr double kPerPixel = 46, kPerSilhouettePixel = 280, kPerHidingPixel = 430, kFixed = 43 << 20,
+                     kAberrated = 28 << 20;
     const bool flat = input.samples.deep.empty() && input.samples.plate.empty() &&
                       input.samples.layers.empty() && input.samples.holdout.empty();
     if (!flat) return std::numeric_limits<std::size_t>::max();
-    const double per_pixel =
-        kPerPixel + (has_spare ? 0 : sizeof(Rgba)) +
-        kPerSilhouettePixel * share_at_silhouettes(input.samples.coc_px, *input.services.workers);
+    const Silhouettes silhouettes = silhouettes_of(input.samples.coc_px, *input.services.workers);
+    const double per_pixel = kPerPixel + (has_spare ? 0 : sizeof(Rgba)) +
+                             kPerSilhouettePixel * silhouettes.at + kPerHidingPixel * silhouettes.hiding;
     const double fixed = kFixed + (input.lens.level(0).reach_px(0) > 0.5 ? kAberrated : 0);
     return std::size_t(per_pixel * double(input.width()) * double(input.height()) + fixed) +
            input.services.beside_bytes;
