@@ -98,7 +98,7 @@ Picture checked_window(const FrameState& frame, const ofx::RectI& window, bool i
 
 }  // namespace
 
-Stage::Stage(const Setup& setup) : setup_(setup) {}
+Stage::Stage(Setup setup) : setup_(std::move(setup)) {}
 
 Stage::~Stage() { end(); }
 

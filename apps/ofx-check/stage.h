@@ -37,7 +37,7 @@ struct Rendered {
 
 class Stage {
 public:
-    explicit Stage(const Setup& setup);
+    explicit Stage(Setup setup);
     ~Stage();
     Stage(const Stage&) = delete;
     Stage& operator=(const Stage&) = delete;

@@ -139,7 +139,7 @@ Result<std::vector<ComparedLayer>> compared_layers(const petzval_shot& shot, con
     for (std::uint64_t i = 0; i < shot.layer_count; ++i) {
         auto layer = compared_layer(shot.layers[i], colour, "layers[" + std::to_string(i) + "]");
         if (!layer) return layer.error();
-        layers.push_back(std::move(*layer));
+        layers.push_back(*layer);
     }
     return layers;
 }

@@ -52,7 +52,7 @@ struct ComparedShot {
     Place place;
     std::vector<ComparedLayer> layers;
     // Errors: InvalidArgument naming the field.
-    static Result<ComparedShot> compare(const petzval_shot* shot);
+    static Result<ComparedShot> compare(const petzval_shot* given);
 };
 
 // The pictures of a shot, read into ours.
@@ -64,7 +64,7 @@ struct TakenShot {
     std::vector<Picture> layers;
     Rendered rendered;  // all of these
     // Errors: InvalidArgument for deep samples that are not counted right.
-    static Status take(const ComparedShot& shot, TakenShot& into);
+    static Status take(const ComparedShot& compared, TakenShot& into);
 };
 
 // Errors: InvalidArgument naming the function that is missing.
