@@ -22,7 +22,7 @@ Result<DepthReport> make_depth(Frame& frame, const DepthSettings& settings);
 DeepPicture samples_of(Frame& frame);
 
 // More pixels than read_frame() ever takes.
-bool is_too_large(const Rect& window);
+bool is_too_large(const Rect& r);
 
 // A shot while it is read.
 struct Reading {

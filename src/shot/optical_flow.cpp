@@ -86,7 +86,7 @@ public:
     };
     struct Window {
         int x = 0, y = 0, count = 0;
-        std::array<Cell, (2 * kWindow + 1) * (2 * kWindow + 1)> cells;
+        std::array<Cell, std::size_t(2 * kWindow + 1) * (2 * kWindow + 1)> cells;
     };
     Window window(int x, int y) const {
         Window window{.x = x, .y = y, .count = 0, .cells = {}};
