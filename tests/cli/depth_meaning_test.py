@@ -1,4 +1,4 @@
-"""What depth means: whole numbers are not metres, disparity has ends, maps of any size are taken, odd depth is said."""
+"""What depth means: whole numbers are not metres, disparity has ends, maps of any size are taken, the program reports odd depth."""
 import struct
 import unittest
 

@@ -1,4 +1,4 @@
-"""petzval lens list and show: the fixed keys, files of every kind, and what is said of files that are not a lens."""
+"""petzval lens list and show: the fixed keys, files of every kind, and errors for files that are not a lens."""
 import ctypes
 import json
 import os
