@@ -8,7 +8,7 @@
 #include "engine/gather/realtime_plan.h"
 #include "engine/lights/bright_points.h"
 #include "engine/lights/sprites.h"
-#include "engine/samples/connectivity.h"
+#include "engine/samples/silhouettes/count.h"
 #include "engine/waist/memory.h"
 #include "engine/waist/stopwatch.h"
 

@@ -31,15 +31,6 @@ enum Connected : unsigned char { kLeft = 1, kRight = 2, kUp = 4, kDown = 8, kAll
 // Connections of every pixel of a plane of signed radii.
 Image<unsigned char> connections(View<const float> coc_px, Workers& workers);
 
-// Fractions of the pixels of a frame by which its samples take memory: those at silhouettes, not connected to
-// all neighbours; and those behind which a lens sees another surface. Of these, one that is blurred by more
-// than kSharpPx counts less: cells take its light together.
-struct Silhouettes {
-    static constexpr float kSharpPx = 6;
-    double at = 0, hiding = 0;
-};
-Silhouettes silhouettes_of(View<const float> coc_px, Workers& workers);
-
 // Change of the radius per pixel along x and y within the surface of each pixel: the mean of the steps to its
 // connected neighbours.
 struct Slope {

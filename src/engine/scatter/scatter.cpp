@@ -10,6 +10,7 @@
 #include "engine/samples/connectivity.h"
 #include "engine/samples/lamps.h"
 #include "engine/samples/outlines/hidden_outlines.h"
+#include "engine/samples/silhouettes/count.h"
 #include "engine/scatter/guessed_shares.h"
 #include "engine/scatter/layer_light.h"
 #include "engine/scatter/plan_reader.h"

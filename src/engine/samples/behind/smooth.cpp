@@ -81,7 +81,7 @@ private:
 void smooth(const Ranges& ranges, HiddenGuesses& guesses, const KnownSurfaces& known, Workers& workers) {
     const int bands = int(guesses.size());
     std::vector<std::vector<Rgba>> smoothed(guesses.size());
-    for (int spacing = 1; spacing <= 8; spacing *= 2) {
+    for (int spacing = 1; spacing <= kSmoothWidestPx; spacing *= 2) {
         const Pass pass(ranges, guesses, known, spacing);
         parallel_for(bands, workers,
                      [&](int b) { smoothed[std::size_t(b)] = pass.band(b, ranges.height()); });

@@ -27,7 +27,7 @@ using HiddenGuesses = std::vector<std::vector<HiddenGuess>>;  // by bands of row
 void smooth(const SparseRows<HiddenLayers::Range>& ranges, HiddenGuesses& guesses, const KnownSurfaces& known,
             Workers& workers);
 
-// Farthest pixel that the mean depends on.
-constexpr int kSmoothReachPx = 1 + 2 + 4 + 8;
+// Spacing of the pixels of the last pass, and the farthest pixel that the mean depends on.
+constexpr int kSmoothWidestPx = 8, kSmoothReachPx = 2 * kSmoothWidestPx - 1;
 
 }  // namespace petzval::engine

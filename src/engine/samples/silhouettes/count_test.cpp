@@ -1,4 +1,4 @@
-#include "engine/samples/connectivity.h"
+#include "engine/samples/silhouettes/count.h"
 
 #include "base/parallel.h"
 
