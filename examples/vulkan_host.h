@@ -28,10 +28,11 @@ struct Host {
     VkDevice device = VK_NULL_HANDLE;
     VkQueue queue = VK_NULL_HANDLE;
     VkCommandPool pool = VK_NULL_HANDLE;
+    bool packs_images = false;  // shaders may write images of B10G11R11
 };
 
-// Vulkan 1.2 and a queue; no extension, no feature.
-inline Host open_host(const VkPhysicalDeviceFeatures* features_on = nullptr) {
+// Vulkan 1.2 and a queue; no extension, and one feature at most: images of B10G11R11, if asked for and there.
+inline Host open_host(bool packs_images = false) {
     Host host;
     VkApplicationInfo application = {};
     application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO, application.apiVersion = VK_API_VERSION_1_2;
@@ -60,7 +61,11 @@ inline Host open_host(const VkPhysicalDeviceFeatures* features_on = nullptr) {
     VkDeviceCreateInfo device = {};
     device.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
     device.queueCreateInfoCount = 1, device.pQueueCreateInfos = &queue;
-    device.pEnabledFeatures = features_on;
+    VkPhysicalDeviceFeatures known = {}, enabled = {};
+    vkGetPhysicalDeviceFeatures(host.physical, &known);
+    host.packs_images = packs_images && known.shaderStorageImageExtendedFormats == VK_TRUE;
+    enabled.shaderStorageImageExtendedFormats = host.packs_images ? VK_TRUE : VK_FALSE;
+    device.pEnabledFeatures = &enabled;
     must(vkCreateDevice(host.physical, &device, nullptr, &host.device), "the device does not start");
     vkGetDeviceQueue(host.device, 0, 0, &host.queue);
     VkCommandPoolCreateInfo pool = {};

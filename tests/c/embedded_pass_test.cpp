@@ -252,11 +252,7 @@ PFN_vkVoidFunction VKAPI_CALL seen_on_instance(VkInstance instance, const char* 
 
 class EmbeddedPass : public testing::Test {
 protected:
-    static void SetUpTestSuite() {
-        VkPhysicalDeviceFeatures features = {};
-        features.shaderStorageImageExtendedFormats = VK_TRUE;
-        host_ = open_host(&features);
-    }
+    static void SetUpTestSuite() { host_ = open_host(true); }
     static void TearDownTestSuite() { close_host(host_); }
 
     static Pass open(VkExtent2D size, PFN_vkGetInstanceProcAddr find = vkGetInstanceProcAddr,
@@ -469,6 +465,7 @@ float unpacked(std::uint32_t word, int shift, int mantissa) {
 }
 
 TEST_F(EmbeddedPass, AResultOfElevenBitsIsThatOfFloatsRounded) {
+    if (!host_.packs_images) GTEST_SKIP() << "the device writes no images of B10G11R11";
     const Scene scene = scene_of(kSize);
     const Pass floats = open(kSize);
     const Pass packed =
