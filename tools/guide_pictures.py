@@ -1,8 +1,11 @@
-"""Makes pictures of docs/guide: deep, render passes, troubleshooting, OpenFX.
+"""Makes pictures of docs/guide: deep, render passes, troubleshooting, OpenFX, GEGL, kit, packages.
 
-Usage: guide_pictures.py PROGRAM. Writes docs/pictures/guide-NAME.png. That of OpenFX needs `ninja petzval_ofx ofx_check`.
+Usage: guide_pictures.py PROGRAM [NAME…]. Writes docs/pictures/guide-NAME.png, or .svg. OpenFX needs `ninja petzval_ofx
+ofx_check`, GEGL its operation, `gegl` and `oiiotool`, the kit a driver of Vulkan.
 """
+import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -88,10 +91,57 @@ def openfx(studio):
     write("openfx", [read_png(studio.shown(night)), read_png(studio.shown(made))])
 
 
-def main(program):
+def gegl(studio):
+    cubes, depth, made = studio.scene("cubes"), studio.path("exr"), studio.path("exr")
+    subprocess.run(["oiiotool", cubes, "--ch", "Y=Z", "-o", depth], check=True)
+    theirs = subprocess.run(["pkg-config", "--variable=pluginsdir", "gegl-0.4"], check=True, stdout=subprocess.PIPE, text=True)
+    path = f"{theirs.stdout.strip()}:{studio.program.parents[2] / 'plugins/gegl'}"
+    subprocess.run(["gegl", cubes, "-o", made, "--", "petzval:defocus", "f-number=1.4", "focus-distance=2.2", "lens=doublet",
+                    "aux=[", "gegl:load", f"path={depth}", "]"], env={**os.environ, "GEGL_PATH": path}, check=True,
+                   stderr=subprocess.DEVNULL)  # GEGL reports its own leaks
+    write("gegl", [read_png(studio.shown(cubes)), read_png(studio.shown(made))])
+
+
+def kit(studio):
+    lanterns = studio.scene("lanterns")
+    write("kit", [read_png(studio.shown(lanterns)), studio.blurred(lanterns, "--engine", "realtime", "--device", "gpu",
+                                                                   "--blades", "5")])
+
+
+BOX, GAP = (176, 34), (60, 12)  # of a package in the drawing; px
+COLUMNS = [["petzval-ofx", "petzval", "blender-petzval", "libpetzval-dev"], ["python3-petzval"],
+           ["libpetzval0", "libpetzval-files0"]]
+
+
+def packages(studio):
+    """An arrow for each of our packages that another one of debian/control installs."""
+    control = (PICTURES.parents[1] / "debian/control").read_text()
+    place = {name: (10 + x * (BOX[0] + GAP[0]), 10 + y * (BOX[1] + GAP[1]))
+             for x, column in enumerate(COLUMNS) for y, name in enumerate(column)}
+    width, height = (10 + max(at[i] for at in place.values()) + BOX[i] for i in (0, 1))
+    parts = []
+    for name, fields in re.findall(r"^Package: (\S+)\n(.*?)(?=^Description)", control, re.DOTALL | re.MULTILINE):
+        (x, y), middle = place[name], BOX[1] / 2
+        parts.append(f'<rect x="{x}" y="{y}" width="{BOX[0]}" height="{BOX[1]}" rx="6"/>'
+                     f'<text x="{x + BOX[0] / 2}" y="{y + 22}">{name}</text>')
+        for kind, line in re.findall(r"^(Depends|Recommends): (.*(?:\n .*)*)", fields, re.MULTILINE):
+            for other in sorted(place.keys() & set(re.findall(r"[\w-]+", line))):
+                start, (to_x, to_y) = x + BOX[0], place[other]
+                dashes = ' stroke-dasharray="5 4"' if kind == "Recommends" else ""
+                parts.append(f'<path d="M{start} {y + middle}C{start + 30} {y + middle} {to_x - 40} {to_y + middle} '
+                             f'{to_x - 3} {to_y + middle}"{dashes} marker-end="url(#tip)"/>')
+    (PICTURES / "guide-packages.svg").write_text(
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}"><style>svg '
+        '{ background: #fff; } rect { fill: #e8eef6; stroke: #35506e; } path { fill: none; stroke: #35506e; } text { font: 15px '
+        'sans-serif; text-anchor: middle; fill: #111; }</style><defs><marker id="tip" markerWidth="9" markerHeight="8" refX="8" '
+        'refY="4" orient="auto"><path d="M0 0L9 4L0 8z" style="fill: #35506e"/></marker></defs>\n' + "\n".join(parts) + "\n</svg>\n")
+
+
+def main(program, *names):
     with tempfile.TemporaryDirectory() as folder:
-        for make in (deep, render_passes, troubleshooting, openfx):
-            make(Studio(pathlib.Path(program).resolve(), pathlib.Path(tempfile.mkdtemp(dir=folder))))
+        for make in (deep, render_passes, troubleshooting, openfx, gegl, kit, packages):
+            if not names or make.__name__.replace("_", "-") in names:
+                make(Studio(pathlib.Path(program).resolve(), pathlib.Path(tempfile.mkdtemp(dir=folder))))
 
 
 if __name__ == "__main__":
