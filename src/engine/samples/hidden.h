@@ -33,10 +33,12 @@ struct LitPicture {
 struct Mixture {
     bool shows_far = false;    // true if the depth is that of the farther surface
     bool lights_near = false;  // true if lamps light the nearer surface
-    float near_share = 0;      // 0…1: coverage of the nearer surface
-    Rgba near_colour;          // premultiplied by near_share; includes the light of lamps on this surface
-    Rgba far_colour;           // colour of the farther surface if it filled the pixel; without lamps
-    Rgba far_light;            // light of lamps behind the nearer surface, as visible in the pixel; a is 0
+    bool lit = false;          // true if lamps light the pixel or one beside it
+    bool thin = false;     // true if the nearer surface has no clean pixel nearby, and the pixel is not lit
+    float near_share = 0;  // 0…1: coverage of the nearer surface
+    Rgba near_colour;      // premultiplied by near_share; includes the light of lamps on this surface
+    Rgba far_colour;       // colour of the farther surface if it filled the pixel; without lamps
+    Rgba far_light;        // light of lamps behind the nearer surface, as visible in the pixel; a is 0
     float near_coc_px = 0, far_coc_px = 0, lamp_coc_px = 0;
     // 0…1: fraction of the pixel's lamp light that comes from lamps behind the nearer surface.
     float lamps_behind = 0;
@@ -44,6 +46,22 @@ struct Mixture {
     // of the channels), and the share that the silhouette's shape suggests.
     Rgba near_clean;
     float near_variance = 0, share_by_shape = 0;
+
+    // Error of share_by_shape.
+    float shape_error() const {
+        return (thin ? completion_model.strand_shape : 1) * completion_model.shape_error;
+    }
+    // Separates the colour c of a pixel that shows the farther surface, without lamps.
+    void take_apart(Rgba c, float near_covers, Rgba behind) {
+        near_share = near_covers;
+        const float far_share = 1 - near_share, alpha = far_colour.a;
+        near_colour = light_only(c - far_share * behind);
+        far_colour = behind;
+        if (far_share <= 0) return;
+        // In a dark pixel neither surface can have more light than the rest.
+        far_colour = light_only((c - near_colour) * (1 / far_share));
+        far_colour.a = alpha;
+    }
 };
 
 using Mixtures = SparseRows<Mixture>;

@@ -6,12 +6,14 @@
 
 namespace petzval::engine {
 
-Explained expected(Rgba c, const Guess& near, const Guess& far, float by_shape) {
+float least_variance(Rgba c) { return 1e-6f + completion_model.model_error2 * dot(c, c); }
+
+Explained expected(Rgba c, const Guess& near, const Guess& far, float by_shape, float shape_error) {
     constexpr std::size_t kShares = 11;
-    const float least = 1e-6f + completion_model.model_error2 * dot(c, c);
+    const float least = least_variance(c);
     std::array<float, kShares> unlikely, variance;  // -2 log of the likelihood, but for the variance
     for (std::size_t i = 0; i < kShares; ++i) {
-        const float s = float(i) / (kShares - 1), off = (s - by_shape) / completion_model.shape_error;
+        const float s = float(i) / (kShares - 1), off = (s - by_shape) / shape_error;
         variance[i] = s * s * near.variance + (1 - s) * (1 - s) * far.variance + least;
         unlikely[i] = distance2(c, s * near.colour + (1 - s) * far.colour) / variance[i] + off * off;
     }
@@ -28,8 +30,8 @@ Explained expected(Rgba c, const Guess& near, const Guess& far, float by_shape) 
     return {share / total, light_only(far.colour + (1 / total) * step)};
 }
 
-float share_before(Rgba c, const Guess& near, Rgba behind, float by_shape) {
-    float share = expected(comparable(c), near, {comparable(behind), 0}, by_shape).near_share;
+float share_before(Rgba c, const Guess& near, Rgba behind, float by_shape, float shape_error) {
+    float share = expected(comparable(c), near, {comparable(behind), 0}, by_shape, shape_error).near_share;
     const auto at_most = [&](float own, float from_behind) {
         if ((1 - share) * from_behind > own) share = 1 - std::max(0.0f, own) / from_behind;
     };

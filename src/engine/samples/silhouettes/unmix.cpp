@@ -2,6 +2,7 @@
 #include "engine/samples/completion_model.h"
 #include "engine/samples/hidden.h"
 #include "engine/samples/outlines/outline.h"
+#include "engine/samples/silhouettes/strands.h"
 #include "engine/samples/silhouettes/two_surfaces.h"
 #include "laws/surfaces.h"
 
@@ -221,23 +222,19 @@ Mixture taken_apart(const LitPicture& picture, View<const float> coc, View<const
     m.near_coc_px = s.near_coc, m.far_coc_px = s.far_coc;
     m.far_colour = far.colour;
     m.near_clean = near.colour, m.near_variance = near.variance, m.share_by_shape = s.near_share_by_shape;
+    m.lit = (touching(x, y) & kLit) != 0;
+    m.thin = s.near_clean.empty() && !m.lit;
+    if (m.thin) return m;  // unmix_strands()
     const Rgba c = picture.dim(x, y);
     const Rgba lamps = picture.colour(x, y) - c;
-    if ((touching(x, y) & kLit) != 0) {
+    if (m.lit) {
         const LampsBehind behind = find_lamps(picture, coc, touching, x, y, threshold, s.far_coc);
         m.far_light = behind.share * lamps, m.lamp_coc_px = behind.coc_px;
         m.lights_near = lamps != Rgba{} && behind.share < 1, m.lamps_behind = behind.share;
     }
     if (!m.shows_far) return m;
-    const Explained e = expected(comparable(c), near, far, s.near_share_by_shape);
-    m.near_share = e.near_share, m.far_colour = e.far_colour;
-    const float far_share = 1 - m.near_share;
-    m.near_colour = light_only(c - far_share * m.far_colour);
-    // In a dark pixel neither surface can have more light than the rest.
-    if (far_share > 0) {
-        const Rgba left = light_only((c - m.near_colour) * (1 / far_share));
-        m.far_colour = {left.r, left.g, left.b, far.colour.a};
-    }
+    const Explained e = expected(comparable(c), near, far, s.near_share_by_shape, m.shape_error());
+    m.take_apart(c, e.near_share, e.far_colour);
     const Rgba lamps_before = lamps - m.far_light;
     give_to_lamps(m);
     m.near_colour += lamps_before;
@@ -263,10 +260,12 @@ Mixtures unmix_silhouettes(const LitPicture& picture, View<const float> coc,
         for (int x = 0; x < width; ++x)
             if (touching(x, y) && lit_around(picture, x, y)) touching(x, y) |= kLit;
     });
-    return {width, height, workers, [&](int y, const auto& emit) {
-                for (int x = 0; x < width; ++x)
-                    if (touching(x, y)) emit(x, taken_apart(picture, coc, touching, x, y, rule));
-            }};
+    Mixtures mixtures{width, height, workers, [&](int y, const auto& emit) {
+                          for (int x = 0; x < width; ++x)
+                              if (touching(x, y)) emit(x, taken_apart(picture, coc, touching, x, y, rule));
+                      }};
+    unmix_strands(mixtures, picture, coc, workers, rule);
+    return mixtures;
 }
 
 void unmix_nearer(Mixtures& mixtures, const LitPicture& picture, const HiddenLayers& hidden,
@@ -277,7 +276,8 @@ void unmix_nearer(Mixtures& mixtures, const LitPicture& picture, const HiddenLay
             if (m.shows_far) return;
             if (const auto behind = hidden.at(x, y); !behind.empty()) m.far_colour = composited(behind);
             const Rgba dim = picture.dim(x, y);
-            m.near_share = share_before(dim, {m.near_clean, m.near_variance}, m.far_colour, m.share_by_shape);
+            m.near_share = share_before(dim, {m.near_clean, m.near_variance}, m.far_colour, m.share_by_shape,
+                                        m.shape_error());
             m.near_colour = light_only(dim - (1 - m.near_share) * m.far_colour);
             const Rgba lamps = colour(x, y) - dim, lamps_before = lamps - m.far_light;
             give_to_lamps(m);

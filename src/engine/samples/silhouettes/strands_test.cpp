@@ -1,0 +1,118 @@
+#include "engine/samples/silhouettes/strands.h"
+
+#include "base/parallel.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+namespace petzval::engine {
+namespace {
+
+constexpr int kSize = 64;
+const Rgba kHair{0.15f, 0.08f, 0.04f, 1};
+
+// Strands in focus, each 0.4 px wide and steep, in front of wide stripes out of focus. The depth of a pixel
+// is that of its middle, which a strand often misses.
+struct Hair {
+    Picture colour{kSize, kSize};
+    Plane coc_px{kSize, kSize, 12}, covered{kSize, kSize, 0};
+    Mixtures mixtures;
+
+    static Rgba stripes(int y) {
+        return y / 5 % 2 == 0 ? Rgba{0.7f, 0.7f, 0.7f, 1} : Rgba{0.1f, 0.4f, 0.1f, 1};
+    }
+
+    explicit Hair(float width_px = 0.4f) {
+        for (int y = 0; y < kSize; ++y)
+            for (int x = 0; x < kSize; ++x) {
+                for (int k = 0; k < 8; ++k) {
+                    const float left = 4 + 8 * float(k) + 0.13f * float(y), right = left + width_px;
+                    covered(x, y) += std::max(0.0f, std::min(right, float(x + 1)) - std::max(left, float(x)));
+                    if (float(x) + 0.5f >= left && float(x) + 0.5f < right) coc_px(x, y) = 0;
+                }
+                colour(x, y) = covered(x, y) * kHair + (1 - covered(x, y)) * stripes(y);
+            }
+        mixtures = unmix_silhouettes({colour, {}}, coc_px, connections(coc_px, one_thread()), one_thread());
+    }
+    template <typename Visit>
+    void for_each(const Visit& visit) const {
+        for (int y = 8; y < kSize - 8; ++y)
+            mixtures.for_each_in_row(y, [&](int x, const Mixture& m) {
+                if (x >= 8 && x < kSize - 8 && m.thin) visit(x, y, m);
+            });
+    }
+};
+
+TEST(Strands, HaveOneColourInFrontOfAnyStripe) {
+    const Hair hair;
+    int pixels = 0;
+    float least = 1, most = 0;
+    hair.for_each([&](int, int, const Mixture& m) {
+        ++pixels;
+        least = std::min(least, m.near_clean.g), most = std::max(most, m.near_clean.g);
+    });
+    EXPECT_GT(pixels, 400);
+    EXPECT_LT(most - least, 0.1f);
+    EXPECT_LT(most, 0.3f);  // the darker stripes have 0.4
+}
+
+TEST(Strands, ContinueWherePixelMiddlesMissThem) {
+    const Hair hair;
+    double missed = 0, of_missed = 0;
+    hair.for_each([&](int x, int y, const Mixture& m) {
+        if (hair.coc_px(x, y) == 0 || hair.covered(x, y) < 0.2f) return;
+        missed += m.near_share, of_missed += hair.covered(x, y);
+    });
+    EXPECT_GT(of_missed, 20);
+    EXPECT_NEAR(missed / of_missed, 1, 0.35);
+}
+
+TEST(Strands, LeaveTheStripesToTheSurfaceBehind) {
+    const Hair hair;
+    double error = 0, unseparated = 0;
+    hair.for_each([&](int x, int y, const Mixture& m) {
+        if (!m.shows_far) return;
+        error += distance2(m.far_colour, Hair::stripes(y));
+        unseparated += distance2(hair.colour(x, y), Hair::stripes(y));
+    });
+    EXPECT_LT(error, 0.35 * unseparated);
+}
+
+TEST(Strands, KeepTheLightOfEveryPixel) {
+    const Hair hair;
+    hair.for_each([&](int x, int y, const Mixture& m) {
+        if (!m.shows_far) return;
+        const Rgba sum = m.near_colour + (1 - m.near_share) * m.far_colour;
+        EXPECT_NEAR(sum.g, hair.colour(x, y).g, 1e-5f);
+    });
+}
+
+TEST(Strands, CoverMoreIfTheyAreWider) {
+    const auto share = [](const Hair& hair) {
+        double sum = 0;
+        hair.for_each([&](int, int, const Mixture& m) { sum += m.near_share; });
+        return sum;
+    };
+    EXPECT_GT(share(Hair(0.4f)), 1.3 * share(Hair(0.2f)));
+}
+
+TEST(Strands, ThatALampLightsAreLeftToTheLamp) {
+    Hair hair;
+    hair.colour(32, 32) = {500, 500, 500, 1};
+    const auto without_lamp = [](int, int, Rgba c) { return c.r < 1 ? c : Rgba{0.7f, 0.7f, 0.7f, 1}; };
+    const LitPicture lit{hair.colour, {.of = without_lamp, .least = 0, .white = 0}};
+    const Mixtures mixtures =
+        unmix_silhouettes(lit, hair.coc_px, connections(hair.coc_px, one_thread()), one_thread());
+    int near_lamp = 0;
+    for (int y = 31; y < 34; ++y)
+        mixtures.for_each_in_row(y, [&](int x, const Mixture& m) {
+            if (x < 31 || x >= 34) return;
+            EXPECT_TRUE(m.lit && !m.thin);
+            ++near_lamp;
+        });
+    EXPECT_GT(near_lamp, 0);
+}
+
+}  // namespace
+}  // namespace petzval::engine
