@@ -19,10 +19,8 @@ int first_tap, taps;  // of the cell's own set, from the first of all; their num
 float tap_side;       // of the square that a tap reads on a disc of radius 1
 vec4 tap_of(int i) { return lens[1 + first_tap + i]; }
 // Weight of a tap for light blurred by a share of the disc's radius: the lens's shape, normalised so that a plane keeps
-// its light (engine/gather/realtime_plan.cpp).
-vec4 weight_of(int side, int tap, float share) {
-    return lens[side + (first_tap + tap) * kShares + int(clamp(share, 0.0, 1.0) * float(kShares - 1) + 0.5)];
-}
+// its light (engine/gather/realtime_plan.cpp). first_of: where a tap's weights begin; share: 0 or more.
+vec4 weight_of(int first_of, float share) { return lens[first_of + int(min(share, 1.0) * float(kShares - 1) + 0.5)]; }
 // A disc of cells: reads at middle + tap * scale, from this level.
 struct Disc {
     vec2 middle, scale;
@@ -44,6 +42,19 @@ void guess(vec4 there, float there_area, float weight, inout vec4 light, inout f
 float near_radius(vec3 near) { return near.y / max(near.z, 1e-7); }
 float back_radius(vec4 back) { return back.y / max(back.w, 1e-7); }
 
+// The growth of the radius over a surface that recedes, in pixels a pixel; 0 where a cell beside it is another surface.
+// The lens sees more of such a surface from one side than from the other: light that a cell receives comes from a place
+// nearer to the cell by radius * slope / 4 than the middle of all discs that reach it. kShift: in cells, as measured.
+const float kShift = 0.15;
+vec2 slope_of(ivec2 cell, int layer, float own_px) {
+    const ivec2 last = 8 * at.tiles - 1;
+    const vec4 right = texelFetch(cells, ivec3(min(cell + ivec2(1, 0), last), layer), 0);
+    const vec4 below = texelFetch(cells, ivec3(min(cell + ivec2(0, 1), last), layer), 0);
+    const vec2 radii = layer == kBack ? vec2(back_radius(right), back_radius(below)) : vec2(near_radius(right.xyz), near_radius(below.xyz));
+    const vec2 slope = 0.5 * (radii - own_px);
+    return dot(slope, slope) < 0.09 ? slope * smoothstep(3.0, 5.0, own_px) : vec2(0);
+}
+
 // Sums taps over a disc: of light as blurred as a cell of `own_px`, of light blurred far less, or of light blurred far
 // more; and the largest radii of the last two.
 const float kLessBlurred = 0.4, kAsBlurred = 0.7, kUpTo = 1.2, kMoreBlurred = 1.7;  // of the cell's radius
@@ -58,24 +69,33 @@ Sum back_over(vec2 middle, float radius, float own_px, int which) {
     const float per_radius = 1 / radius, per_own = 1 / own_px, least = 0.5 * per_radius;
     Sum sum = Sum(vec4(0), 0, 0, 0, 0);
     vec2 less_sum = vec2(0);
-    for (int i = 0; i < taps; ++i) {
+    int first_of = kFarSide + first_tap * kShares;
+    for (int i = 0; i < taps; ++i, first_of += kShares) {
         const vec2 tap = tap_of(i).xy;
         const vec4 there = read_cells(disc, tap, kBack);
         if (there.x == 0) continue;
         const float reaches = back_radius(there), ratio = reaches * per_own;
-        float less = 0, more = 0;  // most taps are about as blurred
-        if (ratio < kAsBlurred) less = smoothstep(kAsBlurred, kLessBlurred, ratio);
-        else if (ratio > kUpTo) more = smoothstep(kUpTo, kMoreBlurred, ratio);
-        if (which == kAlike && there.x > 0.01) {
-            less_sum += less * there.x * vec2(1, reaches * reaches);
-            if (more > 0) sum.more_px = max(sum.more_px, reaches);
+        float counts = which == kAlike ? 1.0 : 0.0;  // most taps are about as blurred
+        bool is_more = false;
+        if (ratio < kAsBlurred) {
+            const float less = smoothstep(kAsBlurred, kLessBlurred, ratio);
+            if (there.x > 0.01) less_sum += less * there.x * vec2(1, reaches * reaches);
+            counts = which == kLess ? less : which == kAlike ? 1 - less : 0.0;
+        } else if (ratio > kUpTo) {
+            const float more = smoothstep(kUpTo, kMoreBlurred, ratio);
+            counts = which == kMore ? more : which == kAlike ? 1 - more : 0.0;
+            is_more = which == kAlike;
         }
-        const vec4 w = weight_of(kFarSide, i, max(reaches * per_radius, least));
-        const float counts = vec3(1 - less - more, less, more)[which];
-        if (which == kAlike) sum.more_area += more * w.a * there.x;
-        if (counts * w.a == 0) continue;
-        sum.light += counts * w * read_cells(disc, tap, kBackLight);
-        sum.area += counts * w.a * there.x;
+        if (counts == 0 && !is_more) continue;
+        vec4 w = weight_of(first_of, max(reaches * per_radius, least));
+        if (is_more) {
+            if (there.x > 0.01) sum.more_px = max(sum.more_px, reaches);
+            sum.more_area += (1 - counts) * w.a * there.x;
+        }
+        if (counts < 1) w *= counts;
+        if (w.a == 0) continue;
+        sum.light += w * read_cells(disc, tap, kBackLight);
+        sum.area += w.a * there.x;
     }
     // Not the largest: a mean of cells beside a silhouette has a radius between both.
     if (less_sum.x > 0) sum.less_px = min(1.2 * sqrt(less_sum.y / less_sum.x), kAsBlurred * own_px);
@@ -84,9 +104,10 @@ Sum back_over(vec2 middle, float radius, float own_px, int which) {
 // Blurs the light behind focus as a cell of this radius sees it, in three layers. The cell's own disc is the opening
 // through which far more blurred light is seen, which comes from as far as its own radius. Far less blurred light has
 // only a few taps in that disc: it is gathered over its own reach, and lies on top.
-vec4 back_of(vec2 middle, vec4 own_light, float own_px, out float area) {
+vec4 back_of(vec2 middle, vec4 own_light, float own_px, vec2 slope, out float area) {
     const float radius = max(own_px, 1.0);
-    const Sum own = back_over(middle, radius, radius, kAlike);
+    // On a surface that recedes, as far as its light comes from.
+    const Sum own = back_over(middle - kShift * radius * slope, (1 + length(slope)) * radius, radius, kAlike);
     area = own.area + own.more_area;
     vec4 light = own.area > 0 ? own.light / own.area : own_light;
     if (own.more_area > 0 && own.more_px > 0) {
@@ -130,27 +151,59 @@ vec4 hidden_of(vec2 middle, float own_px, float most_px, out float is_known) {
     const float around_px = back_px / max(back_area, 1e-6), blurred = smoothstep(2.0, 4.0, around_px) * smoothstep(4.0, 12.0, own_px);
     if (blurred == 0) return mean;
     float seen;
-    const vec4 gathered = back_of(middle, mean, around_px, seen);
+    const vec4 gathered = back_of(middle, mean, around_px, vec2(0), seen);
     return mix(mean, gathered, blurred * smoothstep(0.0, 0.1, seen));
 }
 
-// Area: of all light in front of focus; of that so little blurred that a part of it is blurred pixel by pixel.
-vec4 near_of(vec2 middle, float radius, out vec2 area) {
+// Sums taps over a disc in front of focus: light blurred far less than the most that reaches the tile, or the rest.
+const float kNearLess = 0.5, kNearLeast = 0.3;  // of the most
+struct NearSum {
+    vec4 light;
+    vec2 area;      // of all of it; of that so little blurred that a part of it is blurred pixel by pixel
+    float less_px;  // radius of light blurred far less around the cell
+};
+NearSum near_over(vec2 middle, float radius, float most_px, bool is_less) {
     const Disc disc = disc_of(middle, radius);
-    const float per_radius = 1 / radius, least = 0.5 * per_radius;
-    vec4 light = vec4(0);
-    area = vec2(0);
-    for (int i = 0; i < taps; ++i) {
-        const vec2 tap = tap_of(i).xy;
+    const float per_radius = 1 / radius, least = 0.5 * per_radius, per_most = 1 / most_px;
+    NearSum sum = NearSum(vec4(0), vec2(0), 0);
+    vec2 less_sum = vec2(0);
+    int first_of = kNearSide + first_tap * kShares;
+    for (int i = 0; i < taps; ++i, first_of += kShares) {
+        const vec4 tap_at = tap_of(i);
+        const vec2 tap = tap_at.xy;
         const vec3 there = read_cells(disc, tap, kNear).xyz;
         if (there.x < kLeastArea) continue;
-        const float reaches = near_radius(there);
-        const vec4 w = weight_of(kNearSide, i, max(reaches * per_radius, least));
+        const float reaches = near_radius(there), ratio = reaches * per_most;
+        float counts = is_less ? 0.0 : 1.0;
+        if (ratio < kNearLess) {
+            const float less = smoothstep(kNearLess, kNearLeast, ratio);
+            if (tap_at.z < ratio + 0.15) less_sum += less * there.x * vec2(1, reaches * reaches);
+            counts = is_less ? less : 1 - less;
+        }
+        if (counts == 0) continue;
+        vec4 w = weight_of(first_of, max(reaches * per_radius, least));
+        if (counts < 1) w *= counts;
         if (w.a == 0) continue;
-        light += w * read_cells(disc, tap, kNearLight);
-        area += w.a * there.x * vec2(1, clamp(kWholePx - reaches, 0.0, 1.0));
+        sum.light += w * read_cells(disc, tap, kNearLight);
+        const float area = w.a * there.x;
+        sum.area.x += area;
+        if (reaches < kWholePx) sum.area.y += area * min(kWholePx - reaches, 1.0);
     }
-    return light;
+    if (less_sum.x > 0) sum.less_px = min(1.2 * sqrt(less_sum.y / less_sum.x), kNearLess * most_px);
+    return sum;
+}
+// Light blurred far less than a nearer surface has a few taps in that surface's disc: it is gathered over its own reach,
+// and seen past it.
+vec4 near_of(vec2 middle, float radius, out vec2 area) {
+    NearSum near = near_over(middle, radius, radius, false);
+    if (near.less_px > 0) {
+        const NearSum less = near_over(middle, max(near.less_px, 1.0), radius, true);
+        const float shows = near.area.x + less.area.x > 1 ? max(1 - near.area.x, 0.0) / max(less.area.x, 1e-6) : 1.0;
+        near.light += shows * less.light;
+        near.area += shows * less.area;
+    }
+    area = near.area;
+    return near.light;
 }
 
 void main() {
@@ -168,13 +221,18 @@ void main() {
     if (has) {
         const vec4 own_light = texelFetch(cells, ivec3(cell, kBackLight), 0) / own.x;
         float seen;
-        back = back_radius(own) < 0.5 ? own_light : back_of(middle, own_light, back_radius(own), seen);
+        back = back_radius(own) < 0.5 ? own_light : back_of(middle, own_light, back_radius(own), slope_of(cell, kBack, back_radius(own)), seen);
     } else {
         const vec3 own_near = texelFetch(cells, ivec3(cell, kNear), 0).xyz;
         back = hidden_of(middle, near_radius(own_near), max(near_px, 1.0), is_known);
     }
     vec4 near = vec4(0);
-    if (near_px > 0.5) near = near_of(middle, max(near_px, 1.0), area);
+    if (near_px > 0.5) {
+        const vec3 own_near = texelFetch(cells, ivec3(cell, kNear), 0).xyz;
+        const float own_px = near_radius(own_near);
+        const vec2 slope = own_near.x > 0.99 ? slope_of(cell, kNear, own_px) : vec2(0);
+        near = near_of(middle - kShift * own_px * slope, max(near_px, 1.0), area);
+    }
     imageStore(gathered, ivec3(cell, kGatheredBack), back);
     imageStore(gathered, ivec3(cell, kGatheredNear), near);
     const float own_px = has ? back_radius(own) : 0.0;
