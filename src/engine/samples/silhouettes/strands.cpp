@@ -6,7 +6,6 @@
 #include "engine/samples/silhouettes/two_surfaces.h"
 
 #include <algorithm>
-#include <limits>
 #include <vector>
 
 namespace petzval::engine {
@@ -113,9 +112,7 @@ private:
     Guess behind(int x, int y, const Mixture& m, Rgba near) const {
         constexpr float kDark = 1e-3f;  // keeps reciprocals finite
         const float own_light = std::max(0.0f, luminance(picture_.dim(x, y))) + kDark;
-        const float third = m.shows_far
-                                ? coc_(x, y) + completion_model.third_surface * (coc_(x, y) - threshold(m))
-                                : std::numeric_limits<float>::infinity();
+        const float third = third_surface_px(coc_(x, y), threshold(m));
         const Rect window =
             Rect{x - reach_px_, y - reach_px_, x + reach_px_ + 1, y + reach_px_ + 1}.intersected(coc_.rect());
         const auto each = [&](const auto& visit) {

@@ -1,6 +1,7 @@
 #include "base/parallel.h"
 #include "engine/samples/completion_model.h"
 #include "engine/samples/hidden.h"
+#include "engine/samples/known_surfaces.h"
 #include "engine/samples/outlines/outline.h"
 #include "engine/samples/silhouettes/strands.h"
 #include "engine/samples/silhouettes/two_surfaces.h"
@@ -67,21 +68,13 @@ struct Sides {
     float near_share_by_shape = 0;
 };
 
-// The radius from which on a pixel nearby shows a third surface, behind the two that meet in a pixel. A pixel
-// that shows the farther of these, at `own`, lies one half of their step behind the threshold. A quarter of
-// the step leaves room for the slope of that surface.
-float behind_both(float own, float threshold) {
-    if (own <= threshold) return std::numeric_limits<float>::infinity();
-    return own + completion_model.third_surface * (own - threshold);
-}
-
 Sides look_around(const LitPicture& picture, View<const float> coc, View<const unsigned char> touching, int x,
                   int y, float threshold, const UnmixRule& rule) {
     Sides s;
     const int reach = rule.clean_within_px;
     const Rect window = Rect{x - reach, y - reach, x + reach + 1, y + reach + 1}.intersected(coc.rect());
     const float own_light = std::max(0.0f, luminance(picture.dim(x, y))) + kDark;
-    const float third = behind_both(coc(x, y), threshold);
+    const float third = third_surface_px(coc(x, y), threshold);
     for (int v = window.y0; v < window.y1; ++v)
         for (int u = window.x0; u < window.x1; ++u) {
             if (coc(u, v) > third) continue;
