@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes the pictures of docs/guide/the-window.md: scripts under Xvfb write what is on the screen. They are made to be looked at.
 
-Usage: tools/view_pictures.py PROGRAM
+Usage: tools/view_pictures.py PROGRAM [NAME…]: all, or those named. view-drag needs ffmpeg.
 """
 import os
 import pathlib
@@ -91,7 +91,22 @@ def make(program, name, opened, script, folder, environment):
     subprocess.run([program, "view", *opened, *WINDOW, "--script", path], cwd=folder, env=environment, check=True)
 
 
-def main(program):
+DRAGGED = 14  # pictures of the drag, half to the left, half back
+
+
+def drag(program, folder, environment):
+    """What the window shows during a drag of HexaDrive's scene, before any frame is complete."""
+    moves = [f"drag 240 135 {232 if i < DRAGGED // 2 else 248} 135\nsleep 0.4\nshot drag-{i:02}.png" for i in range(DRAGGED)]
+    path = folder / "script.txt"
+    path.write_text("wait\nkey tab\nkey 0\nwait\n" + "\n".join(moves) + "\n")
+    subprocess.run([program, "view", "--scene", "hexadrive", "--window", "500x460", "--script", path], cwd=folder,
+                   env=environment, check=True)
+    colours = "crop=480:240:10:0,split[a][b];[a]palettegen=max_colors=64[p];[b][p]paletteuse=dither=none"
+    subprocess.run(["ffmpeg", "-y", "-loglevel", "error", "-framerate", "4", "-i", "drag-%02d.png", "-filter_complex", colours,
+                    PICTURES / "view-drag.gif"], cwd=folder, check=True)
+
+
+def main(program, *names):
     program = str(pathlib.Path(program).resolve())
     read, write = os.pipe()
     server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "1000x700x24"], pass_fds=[write])
@@ -108,7 +123,10 @@ def main(program):
             subprocess.run([program, "scene", "make", "tori", "-o", f"shot.{frame:04}.exr", "--frame", str(3 * frame),
                             "--width", "240", "--height", "135", *size], cwd=folder, check=True)
         for shown in SHOWN:
-            make(program, *shown, folder, environment)
+            if not names or shown[0] in names:
+                make(program, *shown, folder, environment)
+        if not names or "view-drag" in names:
+            drag(program, folder, environment)
     server.terminate()
     server.wait()
 
