@@ -4,6 +4,8 @@
 // changes. Sizes of grids stand where they are used: they change the cost alone.
 #pragma once
 
+#include "laws/surfaces.h"
+
 #include <limits>
 #include <vector>
 

@@ -19,10 +19,9 @@ inline bool one_surface(float coc_a_px, float coc_b_px) {
     return std::abs(coc_a_px - coc_b_px) < surface_step_px(coc_a_px, coc_b_px);
 }
 
-// At a silhouette, where a pixel lies behind threshold_px if it shows the farther surface: the radius from
-// which on a pixel nearby shows a third surface, behind both. A pixel that shows the farther surface lies one
-// half of the step behind the threshold. A quarter of the step leaves room for the slope of that surface, but
-// never so much that it no longer is one surface.
+// The radius from which on a pixel near a silhouette shows a third surface, behind the two that meet there.
+// Pixels of the farther of these lie behind threshold_px, one at `own_px` by half of the step. A quarter of
+// the step leaves room for the slope of that surface, but never so much that it is another surface.
 inline float third_surface_px(float own_px, float threshold_px) {
     if (own_px <= threshold_px) return std::numeric_limits<float>::infinity();
     const float slope = completion_model.third_surface * (own_px - threshold_px);

@@ -1,6 +1,5 @@
-#include "engine/samples/hidden.h"
-
 #include "base/parallel.h"
+#include "engine/samples/hidden.h"
 
 #include <gtest/gtest.h>
 
