@@ -58,17 +58,17 @@ void add_lamp_kernels(const PointSpread& spread, double radius_px, std::size_t b
                       std::vector<Rgba>& fours) {
     double lamp_px = LampKernels::kFirstPx;
     for (int i = 0; i < LampKernels::kSteps; ++i, lamp_px *= std::numbers::sqrt2) {
-        const int half = LampKernels::half_side(lamp_px);
-        const double cell = radius_px / lamp_px;
-        fours[begins + std::size_t(i)] = {float(fours.size()), float(half), float(lamp_px), 0};
+        const int half = LampKernels::half_side(lamp_px), per_px = LampKernels::cells_per_px(lamp_px);
+        const double cell = radius_px / (lamp_px * per_px), pixel = cell * per_px;
+        fours[begins + std::size_t(i)] = {float(fours.size()), float(half), float(lamp_px * per_px), 0};
         const std::size_t first = fours.size();
         Rgba sum;
         for (int y = -half; y <= half; ++y)
             for (int x = -half; x <= half; ++x) {
                 const bool is_rim = std::max(std::abs(x), std::abs(y)) == half;
                 fours.push_back(is_rim ? Rgba{}
-                                       : mean_weight(spread, (x - 0.5) * cell, (y - 0.5) * cell, cell,
-                                                     float(cell * cell)));
+                                       : mean_weight(spread, x * cell - 0.5 * pixel, y * cell - 0.5 * pixel,
+                                                     pixel, float(cell * cell)));
                 sum += fours.back();
             }
         // Light that a shape throws beyond its square stays in it.

@@ -15,14 +15,19 @@
 
 namespace petzval::engine {
 
-// Kernels of kSteps radii, pixel by pixel, each sqrt(2) times as large as the one before: first, of all in
-// front of focus and then of all behind it, where each begins (its first four, pixels from the middle to the
-// rim of its square, radius in pixels, 0); then their weights, which sum to 1.
+// Kernels of kSteps radii, cell by cell, each sqrt(2) times as large as the one before: first, of all in
+// front of focus and then of all behind it, where each begins (its first four, cells from the middle to the
+// rim of its square, radius in cells, 0); then their weights, which sum to 1. A cell is a pixel, or half of
+// one up to kFinePx, because interpolation between whole pixels would soften the rims of small discs.
 struct LampKernels {
     static constexpr int kSteps = 14;
     static constexpr double kFirstPx = 0.5, kHalf = 1.25;  // pixels; radii that a square is half as wide as
-    // All that the shape holds, and a rim of nothing.
-    static constexpr int half_side(double radius_px) { return int(kHalf * radius_px) + 2; }
+    static constexpr double kFinePx = 8.1;
+    static constexpr int cells_per_px(double radius_px) { return radius_px < kFinePx ? 2 : 1; }
+    // In cells: all that the shape holds, and a rim of nothing.
+    static constexpr int half_side(double radius_px) {
+        return int(kHalf * radius_px * cells_per_px(radius_px)) + 2 * cells_per_px(radius_px);
+    }
     static constexpr std::size_t weights() {
         std::size_t sum = 0;
         double radius_px = kFirstPx;
