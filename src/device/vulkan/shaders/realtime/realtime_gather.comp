@@ -34,7 +34,7 @@ vec4 read_cells(Disc disc, vec2 tap, int layer) { return textureLod(cells, vec3(
 
 // Adds what a tap says of something hidden: bright things hide behind nothing, as far as is known.
 void guess(vec4 there, float there_area, float weight, inout vec4 light, inout float area) {
-    const float likely = weight / (1 + at.exposure * brightness(there) / there_area);
+    const float likely = weight / (1 + 0.3 * at.exposure * brightness(there) / there_area);
     light += likely * there, area += likely * there_area;
 }
 

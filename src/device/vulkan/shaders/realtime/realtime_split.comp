@@ -124,7 +124,8 @@ void main() {
         light -= bright;
         if (pixel == 2 * cell + corner) {
             const vec4 taken = blurred_share(abs(radius)) * bright;
-            lamp += taken, lamp_place += brightness(taken) * (vec2(corner) + 0.5);
+            lamp += taken;
+            lamp_place += brightness(taken) * (vec2(corner) + 0.5);
         }
         range = max(range, vec4(-radius, pixelwise(radius), pixelwise(-radius), -radius));
         const float near = 0.25 * blurred_share(-radius), back = 0.25 * smoothstep(-2.5, -2.0, radius);
