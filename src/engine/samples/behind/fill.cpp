@@ -275,8 +275,8 @@ int shared_square(std::span<const HiddenGuess> hidden, float shared_from_px) {
         least_mean_px = std::min(least_mean_px, g.plain < 1 ? 0 : g.smooth_px);
     }
     if (least_blur >= 6) return kLargestSquare;
-    if (least_blur >= 2 || least_mean_px >= 16) return 4;
-    return least_blur >= 1 || least_mean_px >= 8 ? 2 : 1;
+    if (least_blur >= 2 || least_mean_px >= 8) return 4;
+    return least_blur >= 1 || least_mean_px >= 4 ? 2 : 1;
 }
 
 using Range = HiddenLayers::Range;
