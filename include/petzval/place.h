@@ -26,7 +26,7 @@ struct PixelField {
     }
 };
 
-struct Place {
+struct Place {                // corners of both windows are from -2^29 to 2^29 px
     Rect display_window;      // the frame: what a viewer shows, and what the sensor is as wide as
     Rect data_window;         // the pixels there are: smaller, larger or offset
     double pixel_aspect = 1;  // width / height of a pixel
@@ -65,7 +65,7 @@ Image<T> through_window(const Image<T>& pixels, const Rect& data, const Rect& wi
 // amounts above 0. For amounts below 0 the frame shows points up to that far beyond its edge.
 PETZVAL_API int distortion_reach_px(const Place& place, double amount);
 
-// Errors: InvalidArgument for an empty display or data window, or a pixel aspect beyond 1e-6 to 1e6.
+// Errors: InvalidArgument for an empty window, a corner beyond 2^29 px, or a pixel aspect beyond 1e-6 to 1e6.
 PETZVAL_API Status check(const Place& place);
 
 }  // namespace petzval
