@@ -239,19 +239,14 @@ Status finish(const MakeFlags& flags, const FoundCamera& camera, ImageScale imag
     return write_report(finished(std::move(report), total), flags.run.json);
 }
 
-// Refuses pictures that the system's limit cannot hold, before they are rendered. Measured bytes of a pixel:
-// sharp picture with depth 25 to 30, truth 17 more. What the scene itself and hidden layers take is not known
-// yet.
+// Measured bytes of a pixel: sharp picture with depth 25 to 30, truth 17 more. What the scene itself and
+// hidden layers take is not known yet.
 Status fits_memory(const SceneSettings& scene) {
-    const std::size_t limit = process_memory_bytes(scene.threads);
     const std::size_t width = std::size_t(scene.width + 2 * scene.overscan_px),
                       height = std::size_t(scene.height + 2 * scene.overscan_px);
-    const std::size_t needed =
-        width * height * (25 + (scene.want_truth ? 16 : 0) + (scene.want_motion ? 16 : 0));
-    if (limit == 0 || needed <= limit) return Done{};
-    return Error{ErrorCode::OutOfMemory, "read.max_memory_bytes is too little: a picture of " +
-                                             std::to_string(width) + " x " + std::to_string(height) +
-                                             " takes at least " + std::to_string((needed >> 20) + 1) + "M"};
+    return fits_process("a picture of " + std::to_string(width) + " x " + std::to_string(height),
+                        width * height * (25 + (scene.want_truth ? 16 : 0) + (scene.want_motion ? 16 : 0)),
+                        scene.threads);
 }
 
 Status make_scene(const MakeFlags& all) {

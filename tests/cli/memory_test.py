@@ -72,6 +72,15 @@ class ShortMemory(CommandLineTest):
             refused = self.refuse(1, *command, limits=address_space(self.least() + 16), says=["what ulimit -v leaves", "in.exr takes"])
             self.assertEqual(len(refused.lines), 1)
 
+    def test_a_picture_of_a_lens_that_does_not_fit_is_refused_and_what_is_enough_is_named(self):
+        for words in (["psf", "doublet", "--defocus", "1000"], ["psf", "ideal", "--size", "2001"],
+                      ["table", "ideal", "--defocus", "128"], ["volume", "ideal", "--slices", "64", "--side", "256"]):
+            command = ["lens", *words, "-o", "disc.exr", "-q"]
+            refused = self.refuse(1, *command, limits=address_space(self.least() + 90), says=["what ulimit -v leaves", "at least"])
+            self.assertEqual(len(refused.lines), 1)
+            named = int(re.search(r"ulimit -v (\d+) would be enough", refused.err).group(1))
+            self.succeed(*command, limits=address_space(named // 1024 + 24))
+
     def test_a_scene_that_does_not_fit_is_refused_before_it_is_rendered(self):
         refused = self.refuse(1, "scene", "make", "night", "--width", "8000", "--height", "8000", "-o", "big.exr", "-q",
                               limits=address_space(self.least() + 160 + 400), says=["what ulimit -v leaves", "8000 x 8000"])

@@ -7,12 +7,15 @@
 #include "flags/look_rows.h"
 #include "flags/run_flags.h"
 #include "flags/values.h"
+#include "input.h"
 #include "lens/mount.h"
 #include "output.h"
 #include "verbs.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <thread>
 
 namespace petzval::cli {
 namespace {
@@ -79,10 +82,28 @@ Result<std::optional<MountedLens>> prepared(PictureFlags& flags) {
     return std::optional<MountedLens>(std::move(*mounted));
 }
 
+// Measured bytes of a pixel: of a kernel while it is made, and of each verb's picture with its file.
+constexpr std::size_t kKernelBytes = 24, kPsfBytes = 35, kTableBytes = 39, kVolumeBytes = 50;
+
+Status fits_memory(const char* what, std::size_t width, std::size_t height, std::size_t bytes) {
+    return fits_process(std::string(what) + " of " + std::to_string(width) + " x " + std::to_string(height),
+                        bytes);
+}
+
 struct PsfFlags : PictureFlags {
     double coc_radius_px = 20;
     Interval field;
     int size_px = 0;
+
+    // The kernel is made whole, also for a smaller picture.
+    Status fits(const Lens& lens, const LensMount& mount) const {
+        const auto disc = largest_disc_px(lens, mount, coc_radius_px);
+        if (!disc) return disc.error();
+        const auto whole = std::size_t(*disc);
+        const auto side = size_px > 0 ? std::size_t(size_px) : whole;
+        return fits_memory("a kernel", side, side,
+                           std::max(kKernelBytes * whole * whole, kPsfBytes * side * side));
+    }
 };
 
 Status make_psf(PsfFlags& flags) {
@@ -91,6 +112,7 @@ Status make_psf(PsfFlags& flags) {
     if (!mounted) return mounted.error();
     if (!*mounted) return Done{};
     const auto& [mount, lens] = **mounted;
+    if (const Status fits = flags.fits(lens, mount); !fits) return fits.error();
     auto disc = lens_point_spread(lens, mount, flags.coc_radius_px, flags.field.low, flags.field.high,
                                   flags.size_px, flags.raw);
     if (!disc) return disc.error();
@@ -115,6 +137,16 @@ Status make_psf(PsfFlags& flags) {
 struct TableFlags : PictureFlags {
     BokehTextureSettings table;
     bool even = false;
+
+    // Each thread makes the kernel of a column.
+    Status fits(const Lens& lens, const LensMount& mount) const {
+        const auto made = most_texture_rows(lens, mount, table);
+        if (!made) return made.error();
+        const auto rows = std::size_t(*made);
+        const auto columns = std::size_t(table.columns);
+        const std::size_t kernels = std::thread::hardware_concurrency() * sizeof(Rgba) * 4 * rows * rows;
+        return fits_memory("a table", columns, rows, kTableBytes * columns * rows + kernels);
+    }
 };
 
 Status make_table(TableFlags& flags) {
@@ -123,6 +155,7 @@ Status make_table(TableFlags& flags) {
     if (!mounted) return mounted.error();
     if (!*mounted) return Done{};
     const auto& [mount, lens] = **mounted;
+    if (const Status fits = flags.fits(lens, mount); !fits) return fits.error();
     flags.table.raw = flags.raw;
     flags.table.dense_near_focus = !flags.even;
     flags.table.cancelled = [] { return interrupted_by() != 0; };
@@ -156,6 +189,10 @@ Status make_volume(VolumeFlags& flags) {
     if (!mounted) return mounted.error();
     if (!*mounted) return Done{};
     const auto& [mount, lens] = **mounted;
+    const auto side = std::size_t(flags.volume.side_px | 1);
+    const auto slices = std::size_t(flags.volume.slices);
+    const Status fits = fits_memory("a volume", side, side * slices, kVolumeBytes * side * side * slices);
+    if (!fits) return fits.error();
     flags.volume.field_x = flags.field.low;
     flags.volume.field_y = flags.field.high;
     auto volume = bokeh_volume(lens, mount, flags.volume);
