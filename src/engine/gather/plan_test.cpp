@@ -110,7 +110,8 @@ TEST(GatherPlan, NoKernelHasMoreThanSoManyTapsHoweverWideItIs) {
     const RingRule rule = ring_rule(Quality::Standard);
     int skirts = 0;
     for (const device::KernelAsk& ask : plan.kernels.asks) {
-        const kernel::PointSpread& piece = *kernels.make({&ask, 1}).front().front();
+        const auto made = kernels.make({&ask, 1});
+        const kernel::PointSpread& piece = *made.front().front();
         const float most = rule.core_end(ask.level) + 1;
         EXPECT_LE(float(std::max({-piece.extent.x0, -piece.extent.y0, piece.extent.x1, piece.extent.y1})),
                   most + 1)
