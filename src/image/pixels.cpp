@@ -1,5 +1,6 @@
 #include "petzval/image.h"
 
+#include "base/sanitizer.h"
 #include "image/big_vector.h"
 
 #include <cstdint>
@@ -24,7 +25,7 @@ std::size_t round_up(std::size_t value, std::size_t to) { return (value + to - 1
 // Frames are made of blocks that come and go; of those that malloc keeps for others of their size the peak
 // would be made. (The sanitizer watches malloc's alone.)
 void* map_own([[maybe_unused]] std::size_t bytes, [[maybe_unused]] std::size_t own_from) {
-#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__)
+#if defined(__linux__) && !defined(PETZVAL_ADDRESS_SANITIZER)
     if (bytes < own_from) return nullptr;
     void* const memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     return memory == MAP_FAILED ? nullptr : memory;

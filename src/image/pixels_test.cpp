@@ -1,5 +1,7 @@
 #include "petzval/image.h"
 
+#include "base/sanitizer.h"
+
 #include <cstdint>
 #include <cstring>
 
@@ -25,7 +27,7 @@ TEST(AllocatePixels, GivesAlignedRoomOfAnySize) {
 }
 
 TEST(AllocatePixels, WhatNobodyHasIsRefused) {
-#ifdef __SANITIZE_ADDRESS__
+#ifdef PETZVAL_ADDRESS_SANITIZER
     GTEST_SKIP() << "the address sanitizer ends the process instead";
 #endif
     EXPECT_THROW(allocate_pixels(SIZE_MAX - 100), std::bad_alloc);

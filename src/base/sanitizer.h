@@ -1,0 +1,10 @@
+// Reports if the address sanitizer watches memory: GCC and clang say so by different names.
+#pragma once
+
+#if defined(__SANITIZE_ADDRESS__)
+#define PETZVAL_ADDRESS_SANITIZER 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define PETZVAL_ADDRESS_SANITIZER 1
+#endif
+#endif
