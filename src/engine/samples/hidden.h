@@ -47,10 +47,8 @@ struct Mixture {
     Rgba near_clean;
     float near_variance = 0, share_by_shape = 0;
 
-    // Error of share_by_shape.
-    float shape_error() const {
-        return (thin ? completion_model.strand_shape : 1) * completion_model.shape_error;
-    }
+    // The shape and the model err so many times more at strands and beside lamps than at a plain edge.
+    float errors() const { return thin || lit ? completion_model.strand_errors : 1; }
     // Separates the colour c of a pixel that shows the farther surface, without lamps.
     void take_apart(Rgba c, float near_covers, Rgba behind) {
         near_share = near_covers;

@@ -43,7 +43,7 @@ public:
     void separate(int x, int y, Mixture& m) const {
         const Guess near{colour(x, y, m), m.near_variance}, far = behind(x, y, m, near.colour);
         const Rgba c = picture_.dim(x, y);
-        const Explained e = expected(comparable(c), near, far, m.share_by_shape, m.shape_error());
+        const Explained e = expected(comparable(c), near, far, m.share_by_shape, m.errors());
         m.near_clean = near.colour;
         m.shows_far = m.shows_far || e.near_share < completion_model.strand_covers;
         m.far_colour = far.colour;
@@ -129,8 +129,9 @@ private:
             (at ? mixed : clean).add(c, weight * dimmer(c));
         });
         const Guess first = (clean.empty() ? mixed : clean).guess();
-        const float own = first.variance + least_variance(first.colour);
-        const float error = m.shape_error() * m.shape_error() * distance2(near, first.colour) / 3;
+        const float own = first.variance + least_variance(first.colour, m.errors());
+        const float off = m.errors() * completion_model.shape_error;
+        const float error = off * off * distance2(near, first.colour) / 3;
         each([&](Rgba c, const Mixture* at, float weight) {
             if (!at) return all.add(c, weight * dimmer(c));
             if (at->lit) return;

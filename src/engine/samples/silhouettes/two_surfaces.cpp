@@ -6,14 +6,17 @@
 
 namespace petzval::engine {
 
-float least_variance(Rgba c) { return 1e-6f + completion_model.model_error2 * dot(c, c); }
+float least_variance(Rgba c, float errors) {
+    return 1e-6f + errors * errors * completion_model.model_error2 * dot(c, c);
+}
 
-Explained expected(Rgba c, const Guess& near, const Guess& far, float by_shape, float shape_error) {
+Explained expected(Rgba c, const Guess& near, const Guess& far, float by_shape, float errors) {
     constexpr std::size_t kShares = 11;
-    const float least = least_variance(c);
+    const float least = least_variance(c, errors);
     std::array<float, kShares> unlikely, variance;  // -2 log of the likelihood, but for the variance
     for (std::size_t i = 0; i < kShares; ++i) {
-        const float s = float(i) / (kShares - 1), off = (s - by_shape) / shape_error;
+        const float s = float(i) / (kShares - 1),
+                    off = (s - by_shape) / (errors * completion_model.shape_error);
         variance[i] = s * s * near.variance + (1 - s) * (1 - s) * far.variance + least;
         unlikely[i] = distance2(c, s * near.colour + (1 - s) * far.colour) / variance[i] + off * off;
     }
@@ -30,8 +33,8 @@ Explained expected(Rgba c, const Guess& near, const Guess& far, float by_shape, 
     return {share / total, light_only(far.colour + (1 / total) * step)};
 }
 
-float share_before(Rgba c, const Guess& near, Rgba behind, float by_shape, float shape_error) {
-    float share = expected(comparable(c), near, {comparable(behind), 0}, by_shape, shape_error).near_share;
+float share_before(Rgba c, const Guess& near, Rgba behind, float by_shape, float errors) {
+    float share = expected(comparable(c), near, {comparable(behind), 0}, by_shape, errors).near_share;
     const auto at_most = [&](float own, float from_behind) {
         if ((1 - share) * from_behind > own) share = 1 - std::max(0.0f, own) / from_behind;
     };

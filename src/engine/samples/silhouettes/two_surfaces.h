@@ -56,16 +56,15 @@ struct Explained {
     Rgba far_colour;
 };
 
-// Variance of a colour that is taken for exact.
-float least_variance(Rgba c);
+// Variance of a colour that is taken for exact. errors: Mixture::errors().
+float least_variance(Rgba c, float errors);
 
 // The mean over all shares that explain the pixel's colour c, weighted by their likelihood for c and their
-// agreement with the shape, which is known to within shape_error. The unexplained rest belongs to the surface
-// that is known less.
-Explained expected(Rgba c, const Guess& near, const Guess& far, float by_shape, float shape_error);
+// agreement with the shape. The unexplained rest belongs to the surface that is known less. errors: as above.
+Explained expected(Rgba c, const Guess& near, const Guess& far, float by_shape, float errors);
 
 // The nearer surface's share of a pixel of colour c in front of a known background. The background cannot
 // give more light than it has.
-float share_before(Rgba c, const Guess& near, Rgba behind, float by_shape, float shape_error);
+float share_before(Rgba c, const Guess& near, Rgba behind, float by_shape, float errors);
 
 }  // namespace petzval::engine

@@ -226,7 +226,7 @@ Mixture taken_apart(const LitPicture& picture, View<const float> coc, View<const
         m.lights_near = lamps != Rgba{} && behind.share < 1, m.lamps_behind = behind.share;
     }
     if (!m.shows_far) return m;
-    const Explained e = expected(comparable(c), near, far, s.near_share_by_shape, m.shape_error());
+    const Explained e = expected(comparable(c), near, far, s.near_share_by_shape, m.errors());
     m.take_apart(c, e.near_share, e.far_colour);
     const Rgba lamps_before = lamps - m.far_light;
     give_to_lamps(m);
@@ -270,7 +270,7 @@ void unmix_nearer(Mixtures& mixtures, const LitPicture& picture, const HiddenLay
             if (const auto behind = hidden.at(x, y); !behind.empty()) m.far_colour = composited(behind);
             const Rgba dim = picture.dim(x, y);
             m.near_share = share_before(dim, {m.near_clean, m.near_variance}, m.far_colour, m.share_by_shape,
-                                        m.shape_error());
+                                        m.errors());
             m.near_colour = light_only(dim - (1 - m.near_share) * m.far_colour);
             const Rgba lamps = colour(x, y) - dim, lamps_before = lamps - m.far_light;
             give_to_lamps(m);
