@@ -11,10 +11,13 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SHADERS = ROOT / "src/device/vulkan/shaders"
-STEPS = ("measure", "split", "reach", "gather", "combine_16", "combine_32")
+STEPS = ("measure", "split", "reach", "gather", "combine_16", "combine_32", "combine_11")
+GLSL = ("-V", "--version", "450")
 SAMPLER, PUSH = 32, 64  # WGSL: a sampler is bound so far behind its texture; the push block as uniforms
-# Programs without WGSL, with the reason. WebGPU has no storage texture of halves that is read and written.
-NO_WGSL = {"reach": "reads and writes one rgba16f image, which WebGPU forbids"}
+# Programs without WGSL, with the reason.
+NO_WGSL = {"combine_11": "WebGPU has no storage texture of r11f_g11f_b10f"}
+# What WGSL leaves out of a program, because WebGPU has no storage texture of halves that is read and written.
+LEFT_OUT = {"reach": ("WITHOUT_MERGING", "without merging of lamps: where more than 256 reach a tile, each is drawn")}
 
 # For naga: it takes the result of findLSB to have the argument's sign, and WGSL knows neither isinf nor isnan.
 INSTEAD = """
@@ -29,6 +32,11 @@ def run(*command):
     if done.returncode:
         sys.exit(done.stdout + f"kit: {' '.join(map(str, command[:1]))} refused {command[-1]}")
     return done.stdout
+
+
+def compiled(step, spirv, *flags):
+    run("glslc", "--target-env=vulkan1.2", "-O", "-Werror", *flags, "-I", ROOT / "src", "-o", spirv,
+        SHADERS / f"realtime/realtime_{step}.comp")
 
 
 def separated(glsl):
@@ -48,6 +56,19 @@ def separated(glsl):
     return glsl.replace("\nvoid main()", f"\n{INSTEAD}\nvoid main()", 1)
 
 
+def uniform(text, glsl, step):
+    """WGSL whose barriers browsers take: they ask for proof that all invocations of a group come to each. A buffer that
+    nobody writes serves as such a proof, and so does the place of the group, but naga drops the first and copies the other
+    into variables of the module. `combine` also loops over words that its group shares."""
+    inputs = re.findall(r"var<private> (gl_\w+)_1: ([^;]+);\n", text)
+    text = re.sub(r"var<private> gl_\w+_1: [^;]+;\n|    gl_\w+_1 = gl_\w+;\n", "", text)
+    text = text.replace("fn main_1()", f"fn main_1({', '.join(f'{name}_1: {kind}' for name, kind in inputs)})")
+    text = text.replace("    main_1();", f"    main_1({', '.join(name for name, _ in inputs)});")
+    for binding in re.findall(r"layout\([^)]*binding = (\d+)[^)]*\) readonly buffer", glsl):
+        text = re.sub(rf"(@binding\({binding}\)\s*var<storage), read_write>", r"\1, read>", text)
+    return re.sub(r"\batomicLoad\(\((&[^)]*)\)\)", r"workgroupUniformLoad(\1)", text) if step.startswith("combine") else text
+
+
 def wgsl(step, made, out):
     """Writes the WGSL by naga, or says why there is none."""
     if step in NO_WGSL:
@@ -55,20 +76,27 @@ def wgsl(step, made, out):
     if not shutil.which("naga"):
         return "naga is not installed (cargo install naga-cli)"
     plain, spirv = made / f"{step}.comp", made / f"{step}.apart.spv"
-    plain.write_text(separated((out / "glsl" / f"{step}.comp").read_text()))
+    glsl, said = out / "glsl" / f"{step}.comp", "written"
+    if step in LEFT_OUT:
+        glsl, said = made / f"{step}.less.comp", LEFT_OUT[step][1]
+        compiled(step, made / f"{step}.less.spv", f"-D{LEFT_OUT[step][0]}")
+        run("spirv-cross", made / f"{step}.less.spv", *GLSL, "--output", glsl)
+    plain.write_text(separated(glsl.read_text()))
     # Not -O: it shares pointers into buffers between blocks, which naga refuses.
     run("glslc", "--target-env=vulkan1.1", "-O0", "-o", spirv, plain)
-    run("naga", spirv, out / "wgsl" / f"{step}.wgsl")
-    run("naga", out / "wgsl" / f"{step}.wgsl")
-    return "written"
+    written = out / "wgsl" / f"{step}.wgsl"
+    run("naga", spirv, written)
+    written.write_text(uniform(written.read_text(), plain.read_text(), step))
+    run("naga", written)
+    return said
 
 
 def translate(step, made, out):
     """All languages of a program; returns its reflection and what became of the WGSL."""
     spirv = out / "spirv" / f"{step}.spv"
-    run("glslc", "--target-env=vulkan1.2", "-O", "-Werror", "-I", ROOT / "src", "-o", spirv, SHADERS / f"realtime/realtime_{step}.comp")
+    compiled(step, spirv)
     run("spirv-val", "--target-env", "vulkan1.2", spirv)
-    for folder, suffix, flags in (("glsl", "comp", ("-V", "--version", "450")), ("hlsl", "hlsl", ("--hlsl", "--shader-model", "60")),
+    for folder, suffix, flags in (("glsl", "comp", GLSL), ("hlsl", "hlsl", ("--hlsl", "--shader-model", "60")),
                                   ("msl", "metal", ("--msl", "--msl-version", "20200"))):
         run("spirv-cross", spirv, *flags, "--output", out / folder / f"{step}.{suffix}")
     run("glslangValidator", "--target-env", "vulkan1.1", "-V", "-o", made / "checked.spv", out / "glsl" / f"{step}.comp")
@@ -88,6 +116,7 @@ BOUND = {
                    4: "result, rgba16f", 5: "lens", 6: "kept", 7: "boxes", 8: "reach"},
 }
 BOUND["combine_32"] = {**BOUND["combine_16"], 4: "result, rgba32f"}
+BOUND["combine_11"] = {**BOUND["combine_16"], 4: "result, r11f_g11f_b10f: alpha is dropped"}
 KINDS = {"textures": "sampled", "images": "storage image", "ssbos": "buffer"}
 
 

@@ -135,7 +135,7 @@ void main() {
     // A group whole or not at all: its invocations look for lamps together.
     const ivec2 place_of_group = ivec2(gl_GlobalInvocationID.xy), pixel = min(place_of_group, at.size - 1);
     const vec2 place = (vec2(pixel) + 0.5) * 0.5 / vec2(8 * at.tiles);
-    const ivec2 tile = pixel / kTile;
+    const ivec2 tile = 8 * ivec2(gl_WorkGroupID.xy) / kTile;
     const float radius = radius_at(pixel);
     const vec4 reaches = reach[tile.y * at.tiles.x + tile.x];
     const bool is_fine = max(reaches.y, reaches.z) > 0;

@@ -11,11 +11,14 @@ layout(std430, binding = 1) writeonly buffer Reach { vec4 reach[]; };  // the sa
 layout(std430, binding = 2) readonly buffer Lamps { uvec4 lamps[]; };
 layout(std430, binding = 3) writeonly buffer Boxes { ivec4 boxes[]; };  // first and last column and row; empty: last < first
 layout(std430, binding = 4) writeonly buffer Kept { uvec4 kept[]; };    // the lamps that are left, as in `lamps`
-layout(binding = 5, rgba16f) uniform image2DArray cells;                // the finest
+#ifndef WITHOUT_MERGING  // in WGSL, which has no image of halves that is read and written
+layout(binding = 5, rgba16f) uniform image2DArray cells;  // the finest
+#endif
 #include "realtime.glsl"
 
 const uint kMostLamps = 256;  // that reach a tile before its own are merged
 
+#ifndef WITHOUT_MERGING
 // Cells with a lamp, 32 to a word (four rows of eight), of which squares of `side` cells hold any: at the square's first.
 uvec2 squares_of(uvec2 mask, int side) {
     if (side >= 2) mask = (mask | mask >> 1 | mask >> 8 | mask >> 9) & 0x00550055u;
@@ -73,6 +76,9 @@ uvec2 thinned(ivec2 tile, uvec2 mask, uint all) {
     }
     return merge(tile, mask, side);
 }
+#else
+uvec2 thinned(ivec2 tile, uvec2 mask, uint all) { return mask; }
+#endif
 
 void main() {
     const int own = int(gl_GlobalInvocationID.x);

@@ -1,0 +1,104 @@
+"""The kit's WGSL in headless Chromium's WebGPU, on SwiftShader: its frame is the Vulkan pass's.
+
+Usage: kit_test.py PROGRAM, which draws the frame to compare with (kit_frame.cpp). Ends with 77, after the reason, where
+naga, the kit's compilers, Chromium, selenium, WebGPU or a device of Vulkan is missing. /usr/bin/python3 runs this, because
+selenium is Debian's.
+"""
+import array
+import base64
+import math
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "tests/browser"), str(ROOT / "tools")]
+STEPS = ("measure", "split", "reach", "gather", "combine_32")
+AT_LEAST_DB = 45
+DRAW = """
+    const [frame, finish] = arguments;
+    const bytes = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
+    for (const name of ["lens", "colour", "radii"]) frame[name] = bytes(frame[name]);
+    const text = (floats) => {
+      let made = "";
+      const all = new Uint8Array(floats.buffer);
+      for (let i = 0; i < all.length; i += 32768) made += String.fromCharCode(...all.subarray(i, i + 32768));
+      return btoa(made);
+    };
+    draw(frame).then((floats) => finish(floats && text(floats)), (error) => finish(`refused: ${error.message}`));"""
+
+
+def skip(reason):
+    print(f"kit_test: skipped, {reason}")
+    sys.exit(77)
+
+
+def frame_of(program, folder):
+    """Width, height and largest radius of the frame that the program left in the folder."""
+    done = subprocess.run([program, folder], stdout=subprocess.PIPE, text=True)
+    if done.returncode == 77:
+        skip("no device of Vulkan")
+    if done.returncode:
+        sys.exit(f"kit_test: {program} ended with {done.returncode}")
+    width, height, most_px = done.stdout.split()
+    return int(width), int(height), float(most_px)
+
+
+def kit_in(folder):
+    for needed in ("naga", "glslc", "spirv-cross", "spirv-val", "glslangValidator"):
+        if not shutil.which(needed):
+            skip(f"{needed} is not installed")
+    subprocess.run([sys.executable, ROOT / "tools/kit.py", folder], stdout=subprocess.DEVNULL, check=True)
+    return {step: (folder / "wgsl" / f"{step}.wgsl").read_text() for step in STEPS}
+
+
+def drawn(frame, folder):
+    """The frame's floats, by Chromium."""
+    try:
+        from chromium import browser
+    except ImportError:
+        skip("selenium is not installed")
+    if not pathlib.Path("/usr/bin/chromedriver").exists():
+        skip("Chromium is not installed")
+    page = folder / "kit.html"  # WebGPU asks for an origin that is secure, as a file's is
+    page.write_text(f"<!DOCTYPE html><script>{(ROOT / 'tests/kit/kit.js').read_text()}</script>")
+    window = browser("--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader")
+    try:
+        window.set_script_timeout(300)
+        window.get(page.as_uri())
+        made = window.execute_async_script(DRAW, frame)
+    finally:
+        window.quit()
+    if made is None:
+        skip("this Chromium has no adapter for WebGPU")
+    if made.startswith("refused"):
+        sys.exit(f"kit_test: {made}")
+    return array.array("f", base64.b64decode(made))
+
+
+def psnr_db(one, other):
+    """Of linear light, cut at 1; alpha counts too."""
+    squares = sum((min(a, 1.0) - min(b, 1.0)) ** 2 for a, b in zip(one, other))
+    return 10 * math.log10(len(one) / max(squares, 1e-12))
+
+
+def main():
+    with tempfile.TemporaryDirectory(prefix="petzval-kit-") as name:
+        folder = pathlib.Path(name)
+        width, height, most_px = frame_of(sys.argv[1], folder)
+        read = {stem: (folder / f"{stem}.bin").read_bytes() for stem in ("lens", "colour", "radii", "expected")}
+        programs = kit_in(folder / "kit")
+        given = {stem: base64.b64encode(read[stem]).decode() for stem in ("lens", "colour", "radii")}
+        made = drawn({"width": width, "height": height, "mostPx": most_px, "programs": programs, **given}, folder)
+    expected, sharp = array.array("f", read["expected"]), array.array("f", read["colour"])
+    assert len(made) == len(expected) == 4 * width * height, len(made)
+    blurred_db, found_db = psnr_db(expected, sharp), psnr_db(made, expected)
+    print(f"kit_test: {found_db:.1f} dB from the Vulkan pass, which is {blurred_db:.1f} dB from the sharp picture")
+    if not (blurred_db < 30 and found_db >= AT_LEAST_DB):
+        sys.exit(f"kit_test: {AT_LEAST_DB} dB are asked for")
+
+
+if __name__ == "__main__":
+    main()
