@@ -109,7 +109,7 @@ def kit(studio):
 
 
 BOX, GAP = (176, 34), (60, 12)  # of a package in the drawing; px
-COLUMNS = [["petzval-ofx", "petzval", "blender-petzval", "libpetzval-dev"], ["python3-petzval"],
+COLUMNS = [["petzval-ofx", "petzval", "blender-petzval", "libpetzval-dev", "petzval-gegl"], ["python3-petzval"],
            ["libpetzval0", "libpetzval-files0"]]
 
 

@@ -4,7 +4,7 @@
 Usage: tools/packages_test.py FOLDER [--without-blender]    FOLDER: of ./dev packages, with the archive of ./dev tarball
 
 Needs root and Debian's mirror. The archive runs in a Debian of required packages alone; then every package is
-installed with its dependencies: program, man page, desktop file, MIME type, C, Python, OpenFX, Blender.
+installed with its dependencies: program, man page, desktop file, MIME type, C, Python, OpenFX, GEGL, Blender.
 """
 import os
 import pathlib
@@ -38,7 +38,7 @@ bash -ic '. /usr/share/bash-completion/completions/petzval; complete -p petzval'
 cc -std=c99 shot_program.c -o shot_program $(pkg-config --cflags --libs petzval-files-c)
 ./shot_program sharp.exr /tmp/lens.json 1.7 from-c.exr
 petzval defocus sharp.exr -o line.exr --lens /tmp/lens.json --focal-length 85 --sensor-width 36 --fstop 2 --focus 1.7m
-petzval compare line.exr from-c.exr --json - | grep '"max_error": 0'
+petzval compare line.exr from-c.exr --json - | grep '"max_error": 0.0,'
 python3 -c '
 import numpy, petzval
 shot = petzval.read_shot("sharp.exr")
@@ -46,7 +46,24 @@ camera = petzval.Camera(85, 36, 2, 1.7)
 shot.write_like("from-python.exr", petzval.defocus(numpy.array(shot.colour), depth_m=numpy.array(shot.depth_m), camera=camera,
                                                    look=petzval.Look(lens="/tmp/lens.json")).image)
 '
-petzval compare line.exr from-python.exr --json - | grep '"max_error": 0'
+petzval compare line.exr from-python.exr --json - | grep '"max_error": 0.0,'
+"""
+GEGL = """
+set -e
+cd /tmp
+python3 -c '
+import numpy, petzval, pictures
+shot = petzval.read_shot("sharp.exr")
+colour, depth = numpy.asarray(shot.colour), numpy.asarray(shot.depth_m).tolist()
+light = {c: colour[..., i].tolist() for i, c in enumerate("RGBA")}
+pictures.write_exr("floats.exr", {**light, "Z": depth})
+pictures.write_exr("light.exr", light)
+pictures.write_exr("depth.exr", {"Y": depth})
+'
+petzval defocus floats.exr -o floats-line.exr --lens /tmp/lens.json --focal-length 85 --sensor-width 36 --fstop 2 --focus 1.7m
+gegl light.exr -o gegl.exr -- petzval:defocus focal-length=85 sensor-width=36 f-number=2 focus-distance=1.7 lens=/tmp/lens.json \\
+    aux=[ gegl:load path=depth.exr ]
+petzval compare floats-line.exr gegl.exr --json - | grep '"max_error": 0.0,'
 """
 BLENDER = """
 set -e
@@ -66,7 +83,7 @@ words = view_program.command("petzval", job.Kept.front.path, bpy.context.view_la
 words[1] = "defocus"
 subprocess.run([*words, "-o", "/tmp/blender-line.exr", "--overwrite"], check=True)
 '
-petzval compare blender-line.exr blender.exr --json - | grep '"max_error": 0'
+petzval compare blender-line.exr blender.exr --json - | grep '"max_error": 0.0,'
 petzval develop blender.exr -o blender.png --overwrite
 blender -b --factory-startup --python-exit-code 3 --python blender/in_blender_test.py -- packaged packaged > in-blender.log 2>&1 \
     || { tail -n 40 in-blender.log; exit 1; }
@@ -106,12 +123,14 @@ def packages_run(system, debs, with_blender):
         shutil.copy(deb, f"{system.root}/tmp")
     shutil.copy(ROOT / "tests/c/shot_program.c", f"{system.root}/tmp")
     shutil.copy(ROOT / "lenses/petzval-laikin.json", f"{system.root}/tmp/lens.json")
+    shutil.copy(ROOT / "tests/cli/pictures.py", f"{system.root}/tmp")
     shutil.copytree(ROOT / "tests/blender", f"{system.root}/tmp/blender")
     blender = [d.name for d in debs if d.name.startswith("blender-petzval")]
     system.install(*(f"/tmp/{d.name}" for d in debs if d.name not in blender), "gcc", "libc6-dev", "pkg-config",
-                   "desktop-file-utils", "shared-mime-info", "libglib2.0-bin", "bash-completion")
+                   "desktop-file-utils", "shared-mime-info", "libglib2.0-bin", "bash-completion", "gegl")
     system.run(FRAME.format(bin="", plugin="/usr/OFX/Plugins/petzval.ofx.bundle", name="package"))
     system.run(INSTALLED)
+    system.run(GEGL)
     print("packages: installed and used", flush=True)
     if with_blender:
         system.install(*(f"/tmp/{name}" for name in blender))
