@@ -179,7 +179,7 @@ TEST_P(Law, AnOpaqueSheetHidesWhatIsStatedBehindIt) {
             [](int, int) {
                 return Rgba{1, 1, 1, 1};
             },
-            [hidden](int, int) { return hidden; });
+            [behind_px = hidden](int, int) { return behind_px; });
         DefocusJob behind = job(shot);
         behind.pupil_points = 64;
         const Picture image = drawn(behind);
