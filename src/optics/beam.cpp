@@ -30,15 +30,14 @@ Ray Beam::launch(Point at) const {
     return {through, normalised(through - object_position_)};
 }
 
-// Crossing of the launched ray with the stop's surface, in stop radii.
-std::optional<Beam::Point> Beam::stop_from_launch(Point at) const {
+std::optional<Beam::AtStop> Beam::stop_from_launch(Point at) const {
     TracedRay traced = trace(*lens_, launch(at), 0, lens_->stop);
     if (traced.fate != RayFate::Passed) return std::nullopt;
     const auto stop = std::size_t(lens_->stop);
     if (stop > 0) traced.ray.position.z -= lens_->surfaces[stop - 1].thickness_mm;
     const auto hit = intersect(lens_->surfaces[stop], traced.ray);
     if (!hit) return std::nullopt;
-    return Point{hit->x / stop_radius_mm_, hit->y / stop_radius_mm_};
+    return AtStop{hit->x / stop_radius_mm_, hit->y / stop_radius_mm_, traced};
 }
 
 // Meridional launch coordinate of the ray through the stop's centre, by Newton's method from a guess.
@@ -99,14 +98,14 @@ bool Beam::measure_scale() {
 }
 
 // Newton's method with differences; `start` is a launch point known to reach the stop near the target.
-std::optional<Beam::Point> Beam::aim_carefully(Point stop, Point start) const {
+std::optional<Beam::Aimed> Beam::aim_carefully(Point stop, Point start) const {
     const double dx = 1e-5 * scale_.x, dy = 1e-5 * scale_.y;
     Point at = start;
     auto here = stop_from_launch(at);
     for (int iteration = 0; here && iteration < 25; ++iteration) {
         const Point miss{here->x - stop.x, here->y - stop.y};
         const double missed = std::hypot(miss.x, miss.y);
-        if (missed < kAimed) return at;
+        if (missed < kAimed) return Aimed{at, here->before};
         const auto right = stop_from_launch({at.x + dx, at.y}), up = stop_from_launch({at.x, at.y + dy});
         if (!right || !up) return std::nullopt;
         const double xx = (right->x - here->x) / dx, yx = (right->y - here->y) / dx;
@@ -114,7 +113,7 @@ std::optional<Beam::Point> Beam::aim_carefully(Point stop, Point start) const {
         const double determinant = xx * yy - xy * yx;
         if (determinant == 0) return std::nullopt;
         Point change{-(yy * miss.x - xy * miss.y) / determinant, -(xx * miss.y - yx * miss.x) / determinant};
-        std::optional<Point> next;
+        std::optional<AtStop> next;
         for (int halving = 0; halving < 8; ++halving) {
             next = stop_from_launch({at.x + change.x, at.y + change.y});
             if (next && std::hypot(next->x - stop.x, next->y - stop.y) < missed) break;
@@ -139,9 +138,9 @@ void Beam::fit_map() {
             const Point target{r * std::cos(angle), r * std::sin(angle)};
             const auto at = aim_carefully(target, from);
             if (!at) break;
-            from = *at;
+            from = at->launch;
             stop.push_back(target);
-            launched.push_back(*at);
+            launched.push_back(from);
         }
     }
     for (const int degree : {7, 5, 3, 1})
@@ -192,7 +191,7 @@ Beam::Guess Beam::guess(double stop_x, double stop_y) const {
 }
 
 // The map's derivative is nearly the true one, so correcting by it converges in a step or two.
-std::optional<Beam::Point> Beam::aim(Point stop) const {
+std::optional<Beam::Aimed> Beam::aim(Point stop) const {
     const Guess g = guess(stop.x, stop.y);
     Point at = g.at;
     double last_miss = 1e9;
@@ -201,7 +200,7 @@ std::optional<Beam::Point> Beam::aim(Point stop) const {
         if (!here) break;
         const Point miss{here->x - stop.x, here->y - stop.y};
         const double missed = std::hypot(miss.x, miss.y);
-        if (missed < kAimed) return at;
+        if (missed < kAimed) return Aimed{at, here->before};
         if (missed > 0.5 * last_miss) break;
         last_miss = missed;
         at.x -= g.by_x.x * miss.x + g.by_y.x * miss.y;
@@ -236,24 +235,24 @@ Result<Beam> Beam::make(std::shared_ptr<const LensAtWavelength> lens, const Obje
 }
 
 std::optional<Ray> Beam::entering(double stop_x, double stop_y) const noexcept {
-    const auto at = aim({stop_x, stop_y});
-    if (!at) return std::nullopt;
-    return launch(*at);
+    const auto aimed = aim({stop_x, stop_y});
+    if (!aimed) return std::nullopt;
+    return launch(aimed->launch);
 }
 
 SensorRay Beam::ray(double stop_x, double stop_y) const noexcept {
     SensorRay result;
     const Guess g = guess(stop_x, stop_y);
     result.flux = std::abs(g.by_x.x * g.by_y.y - g.by_x.y * g.by_y.x) / chief_flux_;
-    const auto enters = entering(stop_x, stop_y);
-    if (!enters) return result;
-    const TracedRay traced = trace(*lens_, *enters);
+    const auto aimed = aim({stop_x, stop_y});
+    if (!aimed) return result;
+    const TracedRay traced = trace(*lens_, aimed->before_stop.ray, lens_->stop, lens_->count());
     if (traced.fate != RayFate::Passed || !(traced.ray.direction.z > 0)) return result;
 
     const Vec3 landing = at_plane(traced.ray, sensor_distance_mm_);
     const Vec3& d = traced.ray.direction;
     result.reached = true;
-    result.clearance = traced.clearance;
+    result.clearance = std::max(aimed->before_stop.clearance, traced.clearance);
     result.x_mm = landing.x;
     result.y_mm = landing.y;
     result.slope_x = d.x / d.z;
@@ -262,7 +261,7 @@ SensorRay Beam::ray(double stop_x, double stop_y) const noexcept {
     if (std::isfinite(object_.distance_mm)) {
         // Solid angle of an element of the launch plane: area times cos / distance^2, cos ~ 1 / distance.
         const Vec3 chief = launch(chief_).position - object_position_;
-        const Vec3 here = enters->position - object_position_;
+        const Vec3 here = launch(aimed->launch).position - object_position_;
         result.flux *= std::pow(length(chief) / length(here), 3);
     }
     return result;

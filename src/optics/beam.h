@@ -67,18 +67,30 @@ private:
         Point at, by_x, by_y;
     };
 
+    // A launched ray at the stop's surface: where it crosses it, in stop radii; the ray just before it, in
+    // its frame.
+    struct AtStop {
+        double x = 0, y = 0;
+        TracedRay before;
+    };
+    // The launch position that meets a stop point.
+    struct Aimed {
+        Point launch;
+        TracedRay before_stop;
+    };
+
     Beam() = default;
     void point_at(double field_rad);
     Ray launch(Point at) const;
-    std::optional<Point> stop_from_launch(Point at) const;
+    std::optional<AtStop> stop_from_launch(Point at) const;
     bool find_chief();
     std::optional<double> solve_chief(double guess) const;
     bool measure_scale();
     void fit_map();
     bool fit(const std::vector<Point>& stop, const std::vector<Point>& launched, int degree);
     Guess guess(double stop_x, double stop_y) const;
-    std::optional<Point> aim(Point stop) const;
-    std::optional<Point> aim_carefully(Point stop, Point start) const;
+    std::optional<Aimed> aim(Point stop) const;
+    std::optional<Aimed> aim_carefully(Point stop, Point start) const;
 
     std::shared_ptr<const LensAtWavelength> lens_;
     ObjectPoint object_;

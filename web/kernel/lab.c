@@ -24,17 +24,31 @@ void lab_camera(double focal_length_mm, double sensor_width_mm, double f_number,
     mount.height = height;
 }
 
+static int same_text(const char* a, const char* b) { return a && b ? strcmp(a, b) == 0 : a == b; }
+
+/* The lens asked for last stays open, so that another look of it needs no new rays. Null if refused. */
+static petzval_lens* opened(const char* name, const char* text) {
+    static petzval_lens* lens;
+    static char *last_name, *last_text;
+    if (lens && same_text(name, last_name) && same_text(text, last_text)) return lens;
+    petzval_lens_close(lens);
+    free(last_name);
+    free(last_text);
+    last_name = strdup(name);
+    last_text = text ? strdup(text) : NULL;
+    if ((text ? petzval_lens_from_memory(text, strlen(text), name, &lens) : petzval_lens_open(name, &lens)) != PETZVAL_OK)
+        lens = NULL;
+    return lens;
+}
+
 /* A lens by name, or, where text is not null, from the text of a lens file; used as look_json says. Null if refused. */
 petzval_lens* lab_lens(const char* name, const char* text, const char* look_json) {
-    petzval_lens *lens = NULL, *used = NULL;
+    petzval_lens* used = NULL;
     petzval_look* look = NULL;
-    const petzval_status opened =
-        text ? petzval_lens_from_memory(text, strlen(text), name, &lens) : petzval_lens_open(name, &lens);
-    if (opened == PETZVAL_OK && petzval_look_from_json(look_json, &look) == PETZVAL_OK &&
-        petzval_lens_with(lens, look, &used) != PETZVAL_OK)
+    const petzval_lens* lens = opened(name, text);
+    if (lens && petzval_look_from_json(look_json, &look) == PETZVAL_OK && petzval_lens_with(lens, look, &used) != PETZVAL_OK)
         used = NULL;
     petzval_look_close(look);
-    petzval_lens_close(lens);
     return used;
 }
 

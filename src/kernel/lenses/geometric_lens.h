@@ -7,6 +7,7 @@
 #include "kernel/model/lens_model.h"
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -14,6 +15,12 @@ namespace petzval::kernel {
 
 class GeometricLens : public LensModel {
 public:
+    // The same lens with another choice, from the rays of this one: the bits of a new model. Null if its rays
+    // must be traced anew. Requires: the same camera, and the same shape of the picture.
+    virtual std::unique_ptr<const GeometricLens> with(const LensChoice& choice, const Mount& mount) const {
+        (void)choice, (void)mount;
+        return nullptr;
+    }
     // The outline that passes light, seen from `field`; pixel orientation, pupil radii, before pixel aspect.
     virtual std::vector<Point> pupil_outline(FieldPosition field, double tolerance) const = 0;
     // Landing of points of the pupil in pixels, pixel aspect included. Requires: the lens outlives the

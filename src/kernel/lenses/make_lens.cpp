@@ -47,6 +47,24 @@ bool is_same_frame(const Mount& a, const Mount& b) {
                std::int64_t(b.display_width_px) * a.display_height_px;
 }
 
+// The model uses the rays that were traced last, where they are those of this choice.
+Result<RayModel> traced_model(const Lens& lens, const Mount& mount) {
+    LastRays& last = *lens.contents().last_rays;
+    std::unique_lock lock(last.mutex);
+    const std::shared_ptr<const GeometricLens> known =
+        last.model && is_same_frame(last.mount, mount) ? last.model : nullptr;
+    lock.unlock();  // others need not wait while rays are traced
+    if (known)
+        if (RayModel model = known->with(lens.choice(), mount)) return model;
+    auto made = TracedModel::make(*prescription_of(lens), lens.choice(), mount);
+    if (!made) return made.error();
+    std::shared_ptr<const GeometricLens> kept = (*made)->with(lens.choice(), mount);
+    lock.lock();
+    last.mount = mount;
+    last.model = std::move(kept);
+    return made;
+}
+
 Result<RayModel> ray_model(const Lens& lens, const Mount& mount) {
     const LensChoice& choice = lens.choice();
     const bool perfect = !adds_aberrations(choice) && choice.distortion == 0;
@@ -56,7 +74,7 @@ Result<RayModel> ray_model(const Lens& lens, const Mount& mount) {
     if (const Status status = check_third_order(choice, mount); !status) return status.error();
     if (const AberrationCurves* curves = curves_of(lens))
         return RayModel(std::make_unique<CurveLens>(*curves, choice, mount));
-    return TracedModel::make(*prescription_of(lens), choice, mount);
+    return traced_model(lens, mount);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include "petzval/lens.h"
 
+#include "kernel/lenses/geometric_lens.h"
 #include "kernel/model/lens_model.h"
 #include "lens_files/lens_file.h"
 
@@ -19,6 +20,12 @@ struct LastMount {
     Mount mount;
     std::shared_ptr<const LensModel> model;
 };
+// The rays that were traced last through a lens, with any choice.
+struct LastRays {
+    std::mutex mutex;
+    Mount mount;
+    std::shared_ptr<const GeometricLens> model;
+};
 }  // namespace kernel
 
 struct Lens::Contents {
@@ -29,6 +36,8 @@ struct Lens::Contents {
     std::shared_ptr<const lens_files::LensFile> file;
     std::string key;
     std::shared_ptr<kernel::LastMount> last_mount;  // never null; of this choice alone
+    std::shared_ptr<kernel::LastRays> last_rays =
+        std::make_shared<kernel::LastRays>();  // shared as the file is
 };
 
 namespace kernel {

@@ -4,6 +4,7 @@
 #include "kernel/draw/band_groups.h"
 #include "kernel/draw/outline.h"
 #include "kernel/draw/ray_set.h"
+#include "kernel/lenses/parabola.h"
 #include "kernel/model/gamut.h"
 #include "optics/traced_lens.h"
 
@@ -34,30 +35,6 @@ constexpr double kSharpPathPx = 6;  // of rims over the spectrum; above, meshes 
 constexpr int kFewestBands = 7, kMostBands = 36;
 
 Error refuse(const std::string& message) { return {ErrorCode::InvalidArgument, message}; }
-
-// The three traced wavelengths nearest to one, and the weights of the parabola through them over
-// 1/wavelength^2.
-struct Parabola {
-    std::size_t first = 0;
-    double weight[3] = {1, 0, 0};
-
-    Parabola(const std::vector<double>& wavelengths_nm, double wavelength_nm) {
-        if (wavelengths_nm.size() < 3) return;
-        while (first + 3 < wavelengths_nm.size() && std::abs(wavelengths_nm[first + 3] - wavelength_nm) <
-                                                        std::abs(wavelengths_nm[first] - wavelength_nm))
-            ++first;
-        const auto axis = [](double nm) { return 1e6 / (nm * nm); };
-        // Values beyond the traced range are those of its end.
-        const double x = axis(std::clamp(wavelength_nm, wavelengths_nm.front(), wavelengths_nm.back()));
-        for (std::size_t i = 0; i < 3; ++i) {
-            weight[i] = 1;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const double xi = axis(wavelengths_nm[first + i]), xk = axis(wavelengths_nm[first + k]);
-                if (k != i) weight[i] *= (x - xk) / (xi - xk);
-            }
-        }
-    }
-};
 
 double light_at(const RayMap& map, const PupilPowers& powers) {
     double light = 0;
@@ -131,6 +108,24 @@ std::unique_ptr<const LensModel> TracedModel::on_pixels(const Mount& mount) cons
     same->mount_.display_width_px = mount.display_width_px;
     same->mount_.display_height_px = mount.display_height_px;
     same->px_per_mm_ = mount.display_width_px / mount.camera.sensor_width_mm;
+    return same;
+}
+
+// Blades, rims in front and added aberrations change neither the rays nor the rims of the glass.
+std::unique_ptr<const GeometricLens> TracedModel::with(const LensChoice& choice, const Mount& mount) const {
+    const TracedModel other(choice, mount);
+    if (choice.focus_mode != choice_.focus_mode || choice.focus_shift_mm != choice_.focus_shift_mm ||
+        choice.lateral_colour != choice_.lateral_colour || other.added_.has_colour() != added_.has_colour())
+        return nullptr;
+    auto same = std::make_unique<TracedModel>(*this);
+    same->pupil_ = other.pupil_;
+    same->choice_ = choice;
+    same->mount_ = mount;
+    same->px_per_mm_ = mount.display_width_px / mount.camera.sensor_width_mm;
+    same->added_ = other.added_;
+    same->reach_offset_mm_ = other.reach_offset_mm_;
+    same->reach_per_coc_ = other.reach_per_coc_;
+    same->measure();
     return same;
 }
 

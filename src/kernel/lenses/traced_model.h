@@ -31,6 +31,7 @@ public:
                                                              const LensChoice& choice, const Mount& mount);
 
     std::unique_ptr<const LensModel> on_pixels(const Mount& mount) const override;
+    std::unique_ptr<const GeometricLens> with(const LensChoice& choice, const Mount& mount) const override;
     PointSpread point_spread(double coc_radius_px, FieldPosition field) const override;
     PointSpread raw_point_spread(double coc_radius_px, FieldPosition field) const override;
     std::vector<PupilRay> rays(int count, FieldPosition field, std::uint64_t seed) const override;

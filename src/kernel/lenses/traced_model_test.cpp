@@ -6,6 +6,7 @@
 #include "kernel/lenses/curve_lens.h"
 #include "kernel/lenses/kernel_testing.h"
 #include "kernel/lenses/make_lens.h"
+#include "kernel/lenses/opened_lens.h"
 #include "lens_files/shelf.h"
 
 #include <numbers>
@@ -50,6 +51,33 @@ TEST(TracedModel, EveryLensOfTheShelfKeepsItsEnergyFromTheMiddleToTheCorner) {
                 EXPECT_GE(t.least, 0) << name;
             }
     }
+}
+
+// Bits: that rays are used again changes none.
+TEST(TracedModel, AnotherLookUsesTheRaysOfTheLensAgain) {
+    LensChoice choice;
+    choice.name = "double-gauss";
+    const Lens lens = Lens::open(choice).value();
+    const Mount mount = mount_of(choice.name, 2.8);
+    LensChoice coma = choice, blades = choice, colour = choice, paraxial = choice, lateral = choice;
+    coma.coma = 1.5;
+    blades.aperture.blades = 5, blades.cats_eye = 0.5;
+    colour.added.axial_colour_mm = 0.2;
+    paraxial.focus_mode = FocusMode::Paraxial;
+    lateral.lateral_colour = 3;
+    for (const LensChoice& other : {choice, coma, blades, colour, paraxial, lateral, choice}) {
+        const auto again = make_lens(lens.with(other).value(), mount).value();
+        const auto anew = make_lens(Lens::open(other).value(), mount).value();
+        EXPECT_EQ(again->reach_px(20), anew->reach_px(20));
+        EXPECT_EQ(largest_difference(again->point_spread(9, {0.4, 0.2}), anew->point_spread(9, {0.4, 0.2})),
+                  0);
+    }
+    const LastRays& last = *lens.contents().last_rays;
+    const auto kept = last.model;
+    ASSERT_TRUE(make_lens(lens.with(coma).value(), mount));
+    EXPECT_EQ(last.model, kept);
+    ASSERT_TRUE(make_lens(lens.with(paraxial).value(), mount));
+    EXPECT_NE(last.model, kept);
 }
 
 TEST(TracedModel, PolynomialsStandForTheRays) {
