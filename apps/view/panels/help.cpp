@@ -44,8 +44,8 @@ void draw_help(App& app) {
                          ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_HorizontalScrollbar)) {
         ImGui::TextUnformatted(app.is_live()
                                    ? "click: focus     drag: turn the camera     wheel: zoom"
-                                   : "click or drag: focus     right click: look at     wheel: zoom");
-        ImGui::TextUnformatted("middle or right drag: move     Ctrl-click a number: type it");
+                                   : "click or drag: focus     right click: inspect a pixel     wheel: zoom");
+        ImGui::TextUnformatted("middle or right drag: pan     Ctrl-click a number: type a value");
         ImGui::Separator();
         const auto& all = bindings();
         const std::size_t rows = (all.size() + 1) / 2;

@@ -359,7 +359,7 @@ const std::vector<Command>& commands() {
         {"redo", "", "do it again", redo},
         {"reset", "FIELD|look", "to its default", reset},
         {"open", "FILE", "another picture, or a shot by its pattern", open},
-        {"reload", "", "read the files again", reload},
+        {"reload", "", "reload the files", reload},
         {"quit", "", "", quit},
     };
     return all;

@@ -26,7 +26,7 @@ std::string plain_words(const App& app, std::string text) {
         {"name one with read.depth_channel or a file with read.depth_file",
          "choose one below, or a file that has depth"},
         {"job.engine", "engine"},
-        {"session.device gpu", "start the window with --device gpu"},
+        {"set session.device gpu", "start the window with --device gpu"},
         {"camera.focal_length_mm", "focal length"},
         {"camera.sensor_width_mm", "sensor width"},
         {"camera.focus_distance_m", "focus"},
