@@ -143,6 +143,18 @@ export const GATHER = `${HEAD}
 uniform sampler2D split, reach;${DISCS}
 out vec4 result;
 const float GOLDEN = 2.39996323;
+// Adds light and cover of discs in front with radii from least to most, in pixels.
+void in_front(vec2 here, vec2 size, mat2 turn, float zone, float start, float most, float least, inout vec3 near, inout vec3 covered) {
+  float extent = 0.55 * side_of(-most, zone), area = 3.14159265 * extent * extent / float(TAPS);
+  for (int i = 0; i < TAPS; ++i) {
+    float t = float(i) * GOLDEN + start, far = extent * sqrt((float(i) + 0.5) / float(TAPS));
+    vec2 from = vec2(cos(t), sin(t)) * far;
+    vec4 tap = texture(split, (here + from) / size);
+    if (tap.a > -0.5 || -tap.a <= least || -tap.a > most || all(lessThan(abs(from), vec2(0.5)))) continue;
+    vec3 weight = disc_at(turn * -from, tap.a, zone) * area;
+    near += weight * tap.rgb, covered += weight;
+  }
+}
 void main() {
   vec2 size = vec2(textureSize(split, 0)), here = gl_FragCoord.xy;
   vec4 own = texelFetch(split, ivec2(here), 0);
@@ -164,22 +176,17 @@ void main() {
       vec3 weight = own.a > 0.0 ? (radius > 0.5 ? disc_at(turn * -from, radius, zone) : vec3(0)) : vec3(1.0 / (1.0 + far * far));
       back += weight * tap.rgb, back_weight += weight;
     }
-  // In front: over the largest radius that reaches this tile.
-  if (near_most > 0.5) {
-    float extent = 0.55 * side_of(-near_most, zone), area = 3.14159265 * extent * extent / float(TAPS);
-    for (int i = 0; i < TAPS; ++i) {
-      float t = float(i) * GOLDEN + start, far = extent * sqrt((float(i) + 0.5) / float(TAPS));
-      vec2 from = vec2(cos(t), sin(t)) * far;
-      vec4 tap = texture(split, (here + from) / size);
-      if (tap.a > -0.5) continue;
-      vec3 weight = disc_at(turn * -from, tap.a, zone) * area;
-      near += weight * tap.rgb, covered += weight;
-    }
-  }
-  float took = (covered.r + covered.g + covered.b) / 3.0, cover = clamp(took, 0.0, 1.0);
-  vec3 front = took > 1e-4 ? near / took : own.rgb;
-  vec3 behind = back_weight.g > 1e-6 ? back / max(back_weight, vec3(1e-6)) : (took > 1e-4 ? front : own.rgb);
-  result = vec4(mix(behind, front, cover), 1.0 - cover);
+  // In front: large discs over the largest radius that reaches this tile; small ones, which few of those taps would meet,
+  // over a quarter of it; the own pixel, whose disc may be smaller still.
+  float split_at = near_most > 4.0 ? 0.25 * near_most : 0.0;
+  if (near_most > 0.5) in_front(here, size, turn, zone, start, near_most, split_at, near, covered);
+  if (split_at > 0.0) in_front(here, size, turn, zone, start, split_at, 0.0, near, covered);
+  if (own.a < -0.5) { vec3 whole = disc_at(vec2(0), own.a, zone); near += whole * own.rgb; covered += whole; }
+  // Each channel is covered by itself, so that surfaces that fill the lens have no tint.
+  vec3 cover = clamp(covered, 0.0, 1.0);
+  vec3 front = mix(own.rgb, near / max(covered, vec3(1e-4)), step(1e-4, covered));
+  vec3 behind = back_weight.g > 1e-6 ? back / max(back_weight, vec3(1e-6)) : front;
+  result = vec4(mix(behind, front, cover), 1.0 - dot(cover, vec3(1.0 / 3.0)));
 }`;
 
 /** One instance a cell; a cell without a lamp draws nothing. */
