@@ -34,8 +34,13 @@ class Page(unittest.TestCase):
         cls.server = server_of(cls.site)
         threading.Thread(target=cls.server.serve_forever, daemon=True).start()
         cls.origin = f"http://127.0.0.1:{cls.server.server_port}"
-        cls.browser = browser(*cls.flags)
-        cls.browser.set_script_timeout(SECONDS)
+        cls.browser = cls.make_browser()
+
+    @classmethod
+    def make_browser(cls):
+        made = browser(*cls.flags)
+        made.set_script_timeout(SECONDS)
+        return made
 
     @classmethod
     def tearDownClass(cls):
