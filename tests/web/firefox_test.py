@@ -45,7 +45,7 @@ class Articles(InFirefox):
 @unittest.skipUnless((SITE / "three").exists(), "npm is not installed: no demo of three.js")
 class Three(InFirefox):
     setUp, console = three_test.Three.setUp, three_test.Three.console
-    frame = three_test.Three.frame
+    frame, tint = three_test.Three.frame, three_test.Three.tint
     test_a_frame_is_that_of_gather = three_test.Three.test_a_frame_is_that_of_gather
 
 
