@@ -1,0 +1,156 @@
+// A frame of the pass for real time as a host asks for it: which part of its images, what their values mean,
+// what comes out.
+#include "embedded_host.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+namespace embedded {
+namespace {
+
+Floats laid_over(const Floats& layer, const Floats& below) {
+    Floats all = layer;
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] += (1 - layer[i / 4 * 4 + 3]) * below[i];
+    return all;
+}
+
+Floats cropped(const Floats& values, VkExtent2D from, VkExtent2D to) {
+    Floats part;
+    for (std::size_t y = 0; y < to.height; ++y)
+        part.insert(part.end(), values.begin() + std::ptrdiff_t(y * from.width * 4),
+                    values.begin() + std::ptrdiff_t((y * from.width + to.width) * 4));
+    return part;
+}
+
+// The rest of the images holds other light, the pass's own images hold an earlier, larger frame. Beyond the
+// border its last pixel continues; in a pass of that size its last cell, where that ends a tile.
+TEST_F(EmbeddedPass, APartOfItsSizeIsDrawnAsAPassOfThatSizeDrawsIt) {
+    constexpr VkExtent2D kWhole = {200, 160};
+    for (const VkExtent2D part : {VkExtent2D{96, 54}, VkExtent2D{128, 96}, VkExtent2D{200, 33}}) {
+        const Scene small = scene_of(part);
+        Scene whole = scene_of(kWhole);
+        for (std::size_t i = 0; i < whole.metres.size(); ++i) {
+            whole.metres[i] = 0.7f;
+            for (std::size_t k = 0; k < 4; ++k) whole.colour[4 * i + k] = 5;
+        }
+        const Pass pass = open(kWhole);
+        Stage(host_, whole).drawn(pass.get());
+        for (std::size_t y = 0; y < part.height; ++y)
+            for (std::size_t x = 0; x < part.width; ++x) {
+                const std::size_t from = y * part.width + x, to = y * kWhole.width + x;
+                whole.metres[to] = small.metres[from];
+                for (std::size_t k = 0; k < 4; ++k) whole.colour[4 * to + k] = small.colour[4 * from + k];
+            }
+        Stage stage(host_, whole);
+        const Floats made = stage.drawn(pass.get(), 2, 0, part);
+        const Floats alone = Stage(host_, small).drawn(open(part).get());
+        EXPECT_GT(difference_db(cropped(made, kWhole, part), alone), 55)
+            << part.width << " x " << part.height;
+        EXPECT_LT(difference_db(alone, small.colour), 40) << "nothing was blurred";
+    }
+    const Pass pass = open(kSize);
+    Stage stage(host_, scene_of(kSize));
+    EXPECT_EQ(stage.drawn(pass.get(), 2, 0, kSize), stage.drawn(pass.get()));
+}
+
+TEST_F(EmbeddedPass, DepthMeansTheSameReversedAndOrdinary) {
+    const Pass pass = open(kSize);
+    const Scene scene = scene_of(kSize);
+    Stage stage(host_, scene);
+    const Floats reversed = stage.drawn(pass.get());
+    EXPECT_LT(difference_db(reversed, scene.colour), 30) << "nothing was blurred";
+    stage.place(scene.metres, kOrdinary);
+    EXPECT_GT(difference_db(reversed, stage.drawn(pass.get())), 60);
+}
+
+// A dark post before a bright wall hides light that is estimated.
+TEST_F(EmbeddedPass, DarkerLightWithMoreExposureIsTheSamePicture) {
+    constexpr float kDarker = 1.0f / 64;
+    const Pass pass = open(kSize);
+    const Scene scene = scene_of(kSize);
+    Scene dark = scene;
+    for (std::size_t i = 0; i < dark.colour.size(); ++i)
+        if (i % 4 != 3) dark.colour[i] *= kDarker;
+    const auto lit = [](Floats made) {
+        for (std::size_t i = 0; i < made.size(); ++i)
+            if (i % 4 != 3) made[i] /= kDarker;
+        return made;
+    };
+    const Floats bright = Stage(host_, scene).drawn(pass.get());
+    Stage stage(host_, dark);
+    const double unexposed_db = difference_db(lit(stage.drawn(pass.get())), bright);
+    stage.expose(1 / double(kDarker));
+    EXPECT_GT(difference_db(lit(stage.drawn(pass.get())), bright), 60);
+    EXPECT_LT(unexposed_db, 55);
+}
+
+// Floats without a sign: five bits of exponent, six of mantissa, five for blue.
+float unpacked(std::uint32_t word, int shift, int mantissa) {
+    const std::uint32_t bits = word >> shift & ((32u << mantissa) - 1);
+    const int exponent = int(bits >> mantissa);
+    const float share = float(bits & ((1u << mantissa) - 1)) / float(1 << mantissa);
+    return exponent == 0 ? std::ldexp(share, -14) : std::ldexp(1 + share, exponent - 15);
+}
+
+TEST_F(EmbeddedPass, AResultOfElevenBitsIsThatOfFloatsRounded) {
+    if (!host_.packs_images) GTEST_SKIP() << "the device writes no images of B10G11R11";
+    const Scene scene = scene_of(kSize);
+    const Pass floats = open(kSize);
+    const Pass packed =
+        open(kSize, vkGetInstanceProcAddr, VK_NULL_HANDLE, 0, VK_FORMAT_B10G11R11_UFLOAT_PACK32);
+    const Floats exact = Stage(host_, scene).drawn(floats.get());
+    const Floats words = Stage(host_, scene, VK_FORMAT_B10G11R11_UFLOAT_PACK32).drawn(packed.get());
+    ASSERT_EQ(words.size() * 4, exact.size());
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        std::uint32_t word = 0;
+        std::memcpy(&word, &words[i], sizeof word);
+        EXPECT_NEAR(unpacked(word, 0, 6), exact[4 * i], exact[4 * i] / 64 + 1e-5f) << i;
+        EXPECT_NEAR(unpacked(word, 11, 6), exact[4 * i + 1], exact[4 * i + 1] / 64 + 1e-5f) << i;
+        EXPECT_NEAR(unpacked(word, 22, 5), exact[4 * i + 2], exact[4 * i + 2] / 32 + 1e-5f) << i;
+    }
+}
+
+TEST_F(EmbeddedPass, ALayerIsLaidOverWhatWasDrawn) {
+    const Pass pass = open(kSize);
+    Scene scene = scene_of(kSize), sharp = scene;
+    sharp.metres.assign(sharp.metres.size(), 2);
+    const Floats below = Stage(host_, scene).drawn(pass.get()),
+                 in_focus = Stage(host_, sharp).drawn(pass.get());
+    EXPECT_LE(largest_difference(in_focus, sharp.colour), 1e-6f);
+    scene.layer.assign(scene.colour.size(), 0);
+    EXPECT_EQ(Stage(host_, scene).drawn(pass.get()), below) << "an empty layer is none";
+    // Glass from none to opaque, with light of its own that no alpha covers.
+    for (std::size_t i = 0; i < scene.layer.size(); ++i) {
+        const float alpha = float(i / 4 % kSize.width) / float(kSize.width - 1);
+        scene.layer[i] = i % 4 == 3 ? alpha : 0.3f * alpha + 0.1f * float(i % 4);
+    }
+    sharp.layer = scene.layer;
+    EXPECT_LE(largest_difference(Stage(host_, sharp).drawn(pass.get()), laid_over(sharp.layer, sharp.colour)),
+              1e-5f);
+    EXPECT_LE(largest_difference(Stage(host_, scene).drawn(pass.get()), laid_over(scene.layer, below)), 1e-5f)
+        << "it is not blurred itself";
+}
+
+// In focus and out of it, on the picture and in the layer above.
+TEST_F(EmbeddedPass, LightWithoutEndBecomesSomeAndSpreadsNoFurther) {
+    const Pass pass = open(kSize);
+    const Scene plain = scene_of(kSize);
+    const float infinite = std::numeric_limits<float>::infinity();
+    for (const float light : {infinite, -infinite, std::numeric_limits<float>::quiet_NaN()}) {
+        Scene scene = plain;
+        scene.layer.assign(scene.colour.size(), 0);
+        const std::size_t pixels = scene.colour.size() / 4;
+        for (std::size_t i = 0; i < 7; ++i) {
+            scene.colour[4 * (i * pixels / 7) + i % 4] = light;
+            scene.layer[4 * (i * pixels / 7) + 40] = light;
+        }
+        const Floats made = Stage(host_, scene).drawn(pass.get());
+        EXPECT_TRUE(std::all_of(made.begin(), made.end(), [](float v) { return std::isfinite(v); })) << light;
+    }
+}
+
+}  // namespace
+}  // namespace embedded
