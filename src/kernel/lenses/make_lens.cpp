@@ -51,8 +51,9 @@ bool is_same_frame(const Mount& a, const Mount& b) {
 Result<RayModel> traced_model(const Lens& lens, const Mount& mount) {
     LastRays& last = *lens.contents().last_rays;
     std::unique_lock lock(last.mutex);
-    const std::shared_ptr<const GeometricLens> known =
-        last.model && is_same_frame(last.mount, mount) ? last.model : nullptr;
+    const auto found = std::find_if(last.traced.rbegin(), last.traced.rend(),
+                                    [&](const LastRays::Traced& t) { return is_same_frame(t.mount, mount); });
+    const std::shared_ptr<const GeometricLens> known = found != last.traced.rend() ? found->model : nullptr;
     lock.unlock();  // others need not wait while rays are traced
     if (known)
         if (RayModel model = known->with(lens.choice(), mount)) return model;
@@ -60,8 +61,8 @@ Result<RayModel> traced_model(const Lens& lens, const Mount& mount) {
     if (!made) return made.error();
     std::shared_ptr<const GeometricLens> kept = (*made)->with(lens.choice(), mount);
     lock.lock();
-    last.mount = mount;
-    last.model = std::move(kept);
+    if (last.traced.size() == LastRays::kMost) last.traced.erase(last.traced.begin());
+    last.traced.push_back({mount, std::move(kept)});
     return made;
 }
 

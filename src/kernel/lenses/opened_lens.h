@@ -10,6 +10,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
 namespace petzval {
 
@@ -20,11 +21,15 @@ struct LastMount {
     Mount mount;
     std::shared_ptr<const LensModel> model;
 };
-// The rays that were traced last through a lens, with any choice.
+// The rays that were traced last through a lens, with any choice; the newest are last.
 struct LastRays {
+    struct Traced {
+        Mount mount;
+        std::shared_ptr<const GeometricLens> model;
+    };
+    static constexpr std::size_t kMost = 12;  // cameras; a strip of discs has one for each disc behind focus
     std::mutex mutex;
-    Mount mount;
-    std::shared_ptr<const GeometricLens> model;
+    std::vector<Traced> traced;
 };
 }  // namespace kernel
 
