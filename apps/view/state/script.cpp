@@ -178,8 +178,10 @@ void Script::begin(App& app, const Line& line) {
         moves_ = {next, hand_};
     } else if (verb == "resize") {
         const auto width = number_of(words[1]), height = number_of(words[2]);
-        constexpr double kMost = 16384;  // of a window's side
-        const auto fits = [&](const Result<double>& side) { return side && *side >= 1 && *side <= kMost; };
+        constexpr double kMostOfSide = 16384;  // of a window
+        const auto fits = [&](const Result<double>& side) {
+            return side && *side >= 1 && *side <= kMostOfSide;
+        };
         if (!fits(width) || !fits(height)) return fail("resize needs two numbers, 1 to 16384 pixels");
         next.resize = {int(*width), int(*height)};
         moves_ = {next, hand_, hand_};
