@@ -97,7 +97,8 @@ inline constexpr double kVolumeRadius = 0.35;
 
 // The bokeh texture with a third dimension: whole discs, for apertures that are not round (blades,
 // dust, cat's eye). Slices are as large as their discs: light outside of a slice is lost. Radii grow with the
-// square of the distance from the middle of the volume, where there is no slice.
+// square of the distance from the middle of the volume. There they begin at the radius whose disc fits its
+// slice: nearer to focus the lens's own blur is wider than the disc.
 struct BokehVolume {
     std::vector<Picture> slices;  // r, g, b each sum to 1, less what is lost
     std::vector<double> coc_radius_px;

@@ -215,6 +215,17 @@ Result<TextureLens> TextureLens::make(const Lens& opened, const LensMount& mount
     return TextureLens{std::move(*lens), finer};
 }
 
+// The smallest radius whose disc fits a slice, with the lens's own blur around it; at most half the largest.
+double least_radius_px(const kernel::LensModel& lens, const BokehVolumeSettings& settings) {
+    const auto fits = [&](double radius_px) {
+        const double reach = std::max(lens.reach_px(radius_px), lens.reach_px(-radius_px));
+        return kVolumeRadius * reach <= 0.5 * radius_px;
+    };
+    double least = settings.largest_coc_px / settings.slices / settings.slices;
+    while (!fits(least) && least < settings.largest_coc_px / 2) least *= 1.1;
+    return std::min(least, settings.largest_coc_px / 2);
+}
+
 }  // namespace
 
 Result<int> most_texture_rows(const Lens& lens, const LensMount& mount,
@@ -267,10 +278,13 @@ Result<BokehVolume> bokeh_volume(const Lens& lens, const LensMount& mount,
     if (settings.side_px < 16 || settings.side_px > 1024) return refuse("disc.side_px must be 16 to 1024");
     if (!(settings.largest_coc_px > 0 && settings.largest_coc_px < kLargestDiscPx))
         return refuse("disc.coc_radius_px must be above 0, and no larger than a disc can be");
+    const auto model = mounted(lens, mount);
+    if (!model) return model.error();
+    const double least = least_radius_px(**model, settings);
     BokehVolume volume;
     for (int i = 0; i < settings.slices; ++i) {
         const double t = (2.0 * i + 1) / settings.slices - 1;
-        const double radius = settings.largest_coc_px * t * std::abs(t);
+        const double radius = std::copysign(least + (settings.largest_coc_px - least) * t * t, t);
         // The same disc on a picture of so many more pixels that it fills the slice.
         const double finer = kVolumeRadius * settings.side_px / std::abs(radius);
         LensMount fine = mount;

@@ -167,6 +167,20 @@ TEST(BokehTexture, IsOfTheRoundApertureOnTheAxisWhateverTheBlades) {
     for (int u = 0; u < 9; ++u) EXPECT_EQ(a->energy(u, 5), b->energy(u, 5));
 }
 
+TEST(BokehVolume, BeginsWhereTheOwnBlurOfTheLensFitsASlice) {
+    for (const int slices : {5, 32}) {
+        const Lens lens = Lens::open(named("doublet")).value();
+        const LensMount mount{.camera = own_camera(lens).value()};
+        const auto volume = bokeh_volume(lens, mount, {.slices = slices, .side_px = 32}).value();
+        for (const Picture& slice : volume.slices) {
+            double light = 0;
+            for (std::size_t k = 0; k < slice.size(); ++k) light += double(slice.pixels()[k].g);
+            EXPECT_NEAR(light, 1, 0.02) << slices;
+        }
+        EXPECT_NEAR(volume.coc_radius_px.back(), 64, 64.0 / slices * 2);
+    }
+}
+
 TEST(BokehVolume, HoldsTheDiscsOfBladesTurnedInFrontOfFocus) {
     LensChoice choice;
     choice.aperture.blades = 5;
