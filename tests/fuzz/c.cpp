@@ -61,7 +61,7 @@ struct Picture {
         for (float& value : repeated) value = float(in.number());
         for (std::size_t i = 0; i < memory.size(); ++i) memory[i] = repeated[i / 4 % 8];
         const bool is_half = in.flag(), is_up = in.flag();
-        const std::ptrdiff_t sample = is_half ? 2 : 4, row = width * 4 * sample;
+        const std::ptrdiff_t sample = is_half ? 2 : 4, row = std::ptrdiff_t(width) * 4 * sample;
         auto* const first =
             reinterpret_cast<char*>(memory.data()) + (is_up && height > 0 ? row * (height - 1) : 0);
         pixels.size = sizeof pixels;
