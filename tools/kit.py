@@ -16,7 +16,7 @@ GLSL = ("-V", "--version", "450")
 SAMPLER, PUSH = 32, 64  # WGSL: a sampler is bound so far behind its texture; the push block as uniforms
 # Programs without WGSL, with the reason.
 NO_WGSL = {"combine_11": "WebGPU has no storage texture of r11f_g11f_b10f"}
-# What WGSL leaves out of a program, because WebGPU has no storage texture of halves that is read and written.
+# Parts that the kit removes from a program for WGSL: WebGPU has no storage texture of halves that is read and written.
 LEFT_OUT = {"reach": ("WITHOUT_MERGING", "without merging of lamps: where more than 256 reach a tile, each is drawn")}
 
 # For naga: it takes the result of findLSB to have the argument's sign, and WGSL knows neither isinf nor isnan.

@@ -1,5 +1,5 @@
-// A frame of the pass for real time as a host asks for it: which part of its images, what their values mean,
-// what comes out.
+// A frame of the pass for real time as a host asks for it: the part of its images, the meaning of their
+// values, the result.
 #include "embedded_host.h"
 
 #include <algorithm>
