@@ -12,15 +12,15 @@ namespace {
 constexpr int kSize = 64;
 const Rgba kHair{0.15f, 0.08f, 0.04f, 1};
 
-// Strands in focus, each 0.4 px wide and steep, in front of wide stripes out of focus. The depth of a pixel
-// is that of its middle, which a strand often misses.
+// Strands in focus, each 0.4 px wide and steep, in front of stripes of 3 px out of focus. The depth of a
+// pixel is that of its middle, which a strand often misses.
 struct Hair {
     Picture colour{kSize, kSize};
     Plane coc_px{kSize, kSize, 12}, covered{kSize, kSize, 0};
     Mixtures mixtures;
 
     static Rgba stripes(int y) {
-        return y / 5 % 2 == 0 ? Rgba{0.7f, 0.7f, 0.7f, 1} : Rgba{0.1f, 0.4f, 0.1f, 1};
+        return y / 3 % 2 == 0 ? Rgba{0.7f, 0.7f, 0.7f, 1} : Rgba{0.1f, 0.4f, 0.1f, 1};
     }
 
     explicit Hair(float width_px = 0.4f) {
@@ -54,7 +54,7 @@ TEST(Strands, HaveOneColourInFrontOfAnyStripe) {
     });
     EXPECT_GT(pixels, 400);
     EXPECT_LT(most - least, 0.1f);
-    EXPECT_LT(most, 0.3f);  // the darker stripes have 0.4
+    EXPECT_LT(most, 0.33f);  // the darker stripes have 0.4
 }
 
 TEST(Strands, ContinueWherePixelMiddlesMissThem) {
@@ -76,7 +76,7 @@ TEST(Strands, LeaveTheStripesToTheSurfaceBehind) {
         error += distance2(m.far_colour, Hair::stripes(y));
         unseparated += distance2(hair.colour(x, y), Hair::stripes(y));
     });
-    EXPECT_LT(error, 0.35 * unseparated);
+    EXPECT_LT(error, 0.3 * unseparated);  // 0.36 by clean pixels alone
 }
 
 TEST(Strands, KeepTheLightOfEveryPixel) {
@@ -86,6 +86,17 @@ TEST(Strands, KeepTheLightOfEveryPixel) {
         const Rgba sum = m.near_colour + (1 - m.near_share) * m.far_colour;
         EXPECT_NEAR(sum.g, hair.colour(x, y).g, 1e-5f);
     });
+}
+
+TEST(Strands, CoverThePixelsThatTheyPass) {
+    const Hair hair;
+    double passed = 0, beside = 0;
+    int of_passed = 0, of_beside = 0;
+    hair.for_each([&](int x, int y, const Mixture& m) {
+        if (hair.covered(x, y) > 0.3f) passed += m.near_share, ++of_passed;
+        if (hair.covered(x, y) < 0.1f) beside += m.near_share, ++of_beside;
+    });
+    EXPECT_GT(passed / of_passed, 2.5 * beside / of_beside);
 }
 
 TEST(Strands, CoverMoreIfTheyAreWider) {
