@@ -47,16 +47,14 @@ bool is_same_frame(const Mount& a, const Mount& b) {
                std::int64_t(b.display_width_px) * a.display_height_px;
 }
 
-// The model uses the rays that were traced last, where they are those of this choice.
+// The model uses rays that were traced before, where they are those of this choice.
 Result<RayModel> traced_model(const Lens& lens, const Mount& mount) {
     LastRays& last = *lens.contents().last_rays;
     std::unique_lock lock(last.mutex);
-    const auto found = std::find_if(last.traced.rbegin(), last.traced.rend(),
-                                    [&](const LastRays::Traced& t) { return is_same_frame(t.mount, mount); });
-    const std::shared_ptr<const GeometricLens> known = found != last.traced.rend() ? found->model : nullptr;
+    for (const LastRays::Traced& known : last.traced)
+        if (is_same_frame(known.mount, mount))
+            if (RayModel model = known.model->with(lens.choice(), mount)) return model;
     lock.unlock();  // others need not wait while rays are traced
-    if (known)
-        if (RayModel model = known->with(lens.choice(), mount)) return model;
     auto made = TracedModel::make(*prescription_of(lens), lens.choice(), mount);
     if (!made) return made.error();
     std::shared_ptr<const GeometricLens> kept = (*made)->with(lens.choice(), mount);
