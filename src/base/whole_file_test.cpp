@@ -1,5 +1,7 @@
 #include "base/whole_file.h"
 
+#include "base/temporary_folder.h"
+
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
@@ -10,13 +12,13 @@ namespace petzval {
 namespace {
 
 TEST(WholeFile, IsReadToOneByteMoreThanAsked) {
-    const std::string path = testing::TempDir() + "whole_file_test.txt";
+    const test::TemporaryFolder folder;
+    const std::string path = folder / "text.txt";
     const std::string text(50000, 'x');
     std::ofstream(path) << text;
     EXPECT_EQ(*text_of_file(path, 1 << 20), text);
     EXPECT_EQ(*text_of_file(path, text.size()), text);
     EXPECT_EQ(text_of_file(path, 99)->size(), 100u);
-    std::filesystem::remove(path);
 }
 
 TEST(WholeFile, ThatIsMissingIsWrongInput) {

@@ -1,5 +1,7 @@
 #include "petzval/farm/state.h"
 
+#include "base/temporary_folder.h"
+
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -15,17 +17,11 @@ using State = FarmFrame::State;
 
 struct FarmStateTest : testing::Test {
     void SetUp() override {
-        folder =
-            fs::path(testing::TempDir()) /
-            (std::string("petzval-farm-") + testing::UnitTest::GetInstance()->current_test_info()->name());
-        fs::remove_all(folder);
-        fs::create_directories(folder);
         shot.folder = folder.string();
         shot.name = "job";
         shot.command = {"petzval", "defocus"};
         shot.frames = {1, 2, 3, 4};
     }
-    void TearDown() override { fs::remove_all(folder); }
     std::string text(const char* name) const {
         std::ifstream file(folder / name);
         std::stringstream all;
@@ -41,7 +37,8 @@ struct FarmStateTest : testing::Test {
         setenv("PATH", program.parent_path().c_str(), 1);
     }
 
-    fs::path folder;
+    const test::TemporaryFolder own;
+    const fs::path folder = own.path();
     FarmShot shot;
 };
 

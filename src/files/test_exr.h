@@ -4,6 +4,7 @@
 #include "petzval/image.h"
 
 #include "base/parallel.h"
+#include "base/temporary_folder.h"
 #include "files/exr/file.h"
 
 #include <algorithm>
@@ -29,31 +30,6 @@
 #include <OpenEXR/ImfTiledOutputPart.h>
 
 namespace petzval::test {
-
-class TemporaryFolder {
-public:
-    TemporaryFolder() {
-        // In memory where possible: thousands of small files are slow on a disk.
-        const bool shm = ::access("/dev/shm", W_OK) == 0;
-        std::string name =
-            (shm ? "/dev/shm" : std::filesystem::temp_directory_path().string()) + "/petzval-XXXXXX";
-        folder_ = ::mkdtemp(name.data());
-    }
-    ~TemporaryFolder() { std::filesystem::remove_all(folder_); }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    std::string operator/(const std::string& name) const { return folder_ + "/" + name; }
-    std::string path() const { return folder_; }
-    std::size_t files() const {
-        std::size_t n = 0;
-        for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder_)) ++n;
-        return n;
-    }
-
-private:
-    std::string folder_;
-};
 
 // OpenEXR without its thread pool: thousands of tiny files would spend their time on waking threads.
 class WithoutExrThreads {

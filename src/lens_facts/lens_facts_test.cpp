@@ -1,5 +1,7 @@
 #include "petzval/lens_facts.h"
 
+#include "base/temporary_folder.h"
+
 #include <cmath>
 #include <fstream>
 #include <set>
@@ -58,7 +60,8 @@ TEST(LensFacts, AnUnknownNameListsTheLensesAndADamagedFileItsLine) {
     EXPECT_NE(unknown.error().message.find("double-gauss"), std::string::npos);
     EXPECT_NE(lens_facts("tess").error().message.find("near it: tessar, tessar-laikin"), std::string::npos);
 
-    const std::string path = testing::TempDir() + "damaged_lens.json";
+    const test::TemporaryFolder folder;
+    const std::string path = folder / "lens.json";
     std::ofstream(path) << "{\"surfaces\": [\n{\"radius\": 5,, }]}";
     const auto damaged = lens_facts(path);
     ASSERT_FALSE(damaged);
@@ -67,7 +70,8 @@ TEST(LensFacts, AnUnknownNameListsTheLensesAndADamagedFileItsLine) {
 }
 
 TEST(LensFacts, APlaneParallelPlateIsNoLens) {
-    const std::string path = testing::TempDir() + "plate.json";
+    const test::TemporaryFolder folder;
+    const std::string path = folder / "lens.json";
     std::ofstream(path) << R"({"aperture": {"type": "EPD", "value": 5}, "surfaces": [
         {"radius": null, "thickness": 5, "medium": {"nd": 1.5}}, {"radius": null, "thickness": 5}]})";
     const auto plate = lens_facts(path);
@@ -78,7 +82,8 @@ TEST(LensFacts, APlaneParallelPlateIsNoLens) {
 
 TEST(LensFacts, ANearObjectIsReportedWithItsMagnification) {
     // A thin lens of f = 100 at 2 f images at 2 f, upside down, at its own size.
-    const std::string path = testing::TempDir() + "copy.json";
+    const test::TemporaryFolder folder;
+    const std::string path = folder / "lens.json";
     std::ofstream(path)
         << R"({"object": 200, "max_object_height": 10, "aperture": {"type": "OBJECT_NA", "value": 0.02},
         "surfaces": [{"radius": 51.68, "thickness": 0, "medium": {"nd": 1.5168, "Vd": 64.2}, "stop": true},

@@ -2,6 +2,8 @@
 
 #include "petzval/track.h"
 
+#include "base/temporary_folder.h"
+
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -46,10 +48,9 @@ TEST(FocusTrack, SmoothingIsEvenInDioptresAndKeepsWhatIsSteady) {
 
 TEST(FocusTrack, IsReadBackAsItWas) {
     const std::vector<FocusKey> keys{{-3, 0.123456789}, {1, 4}, {2, kInfinity}};
-    const auto path = std::filesystem::temp_directory_path() / "petzval_focus_track_test.csv";
-    std::ofstream(path) << track_csv(keys);
-    const auto track = Track::read(path);
-    std::filesystem::remove(path);
+    const test::TemporaryFolder folder;
+    std::ofstream(folder / "focus.csv") << track_csv(keys);
+    const auto track = Track::read(folder / "focus.csv");
     ASSERT_TRUE(track) << track.error().message;
     for (const FocusKey& key : keys)
         EXPECT_DOUBLE_EQ(*track->at(key.frame).camera.focus_distance_m, key.distance_m);

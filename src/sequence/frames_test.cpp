@@ -1,5 +1,7 @@
 #include "petzval/frames.h"
 
+#include "base/temporary_folder.h"
+
 #include <filesystem>
 #include <fstream>
 
@@ -59,13 +61,11 @@ TEST(FramePatterns, NameFilesAndKnowThemAgain) {
 }
 
 TEST(FramePatterns, FindWhatIsThere) {
-    const auto folder = std::filesystem::temp_directory_path() / "petzval_frames_there";
-    std::filesystem::remove_all(folder);
-    std::filesystem::create_directories(folder);
+    const test::TemporaryFolder folder;
     for (const char* name : {"a.0003.exr", "a.0001.exr", "a.1.exr", "a.0002.png", "a.10000.exr"})
         std::ofstream(folder / name) << "x";
     EXPECT_EQ(pattern((folder / "a.####.exr").c_str()).frames_there().value(), (Frames{1, 3, 10000}));
-    std::filesystem::remove_all(folder);
+    std::filesystem::remove_all(folder.path());
     EXPECT_FALSE(pattern((folder / "a.####.exr").c_str()).frames_there());
 }
 

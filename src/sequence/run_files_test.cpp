@@ -1,6 +1,7 @@
 #include "petzval/run_files.h"
 
-#include <filesystem>
+#include "base/temporary_folder.h"
+
 #include <fstream>
 
 #include <gtest/gtest.h>
@@ -8,23 +9,18 @@
 namespace petzval {
 namespace {
 
-namespace fs = std::filesystem;
-
 struct RunFilesTest : testing::Test {
     void SetUp() override {
-        fs::remove_all(folder);
-        fs::create_directories(folder);
         for (const char* name : {"s.0001.exr", "s.0002.exr", "plate.exr"}) std::ofstream(at(name)) << "x";
     }
-    void TearDown() override { fs::remove_all(folder); }
-    std::string at(const std::string& name) const { return (folder / name).string(); }
-    Status check(const std::string& reads, const std::vector<std::string>& writes) const {
+    std::string at(const std::string& name) const { return folder / name; }
+    static Status check(const std::string& reads, const std::vector<std::string>& writes) {
         RunFiles files;
         files.reads(reads);
         for (const std::string& path : writes) files.writes(path);
         return files.check();
     }
-    fs::path folder = fs::path(testing::TempDir()) / "petzval-run-files";
+    const test::TemporaryFolder folder;
 };
 
 TEST_F(RunFilesTest, EveryFrameThatIsThereIsGuarded) {
@@ -34,7 +30,7 @@ TEST_F(RunFilesTest, EveryFrameThatIsThereIsGuarded) {
 }
 
 TEST_F(RunFilesTest, NoTwoOutputsAreOneFile) {
-    EXPECT_FALSE(check("", {at("t.csv"), folder.string() + "/./t.csv"}));
+    EXPECT_FALSE(check("", {at("t.csv"), folder.path() + "/./t.csv"}));
     EXPECT_TRUE(check("", {at("t.csv"), "", at("t.svg")}));
 }
 

@@ -1,5 +1,7 @@
 #include "petzval/shot_run.h"
 
+#include "base/temporary_folder.h"
+
 #include <filesystem>
 #include <fstream>
 
@@ -13,15 +15,9 @@ namespace fs = std::filesystem;
 // Five frames of a near thing before a wall.
 struct ShotRunTest : testing::Test {
     void SetUp() override {
-        folder =
-            fs::path(testing::TempDir()) / (std::string("petzval-shot-run-") +
-                                            testing::UnitTest::GetInstance()->current_test_info()->name());
-        fs::remove_all(folder);
-        fs::create_directories(folder);
         for (int frame = 1; frame <= 5; ++frame) write_frame(frame);
     }
-    void TearDown() override { fs::remove_all(folder); }
-    std::string at(const std::string& name) const { return (folder / name).string(); }
+    std::string at(const std::string& name) const { return folder / name; }
 
     void write_frame(int frame) const {
         Frame shot;
@@ -60,7 +56,7 @@ struct ShotRunTest : testing::Test {
         return {std::istreambuf_iterator<char>(in), {}};
     }
 
-    fs::path folder;
+    const test::TemporaryFolder folder;
     Status ended = Done{};
     std::vector<int> failed;
 };

@@ -4,6 +4,8 @@
 #include "petzval/shots/develop_shot.h"
 #include "petzval/shots/inspection.h"
 
+#include "base/temporary_folder.h"
+
 #include <filesystem>
 
 #include <gtest/gtest.h>
@@ -16,15 +18,9 @@ namespace fs = std::filesystem;
 // Three frames of one colour each; the third has another shape.
 struct ShotSheetTest : testing::Test {
     void SetUp() override {
-        folder =
-            fs::path(testing::TempDir()) / (std::string("petzval-shot-sheet-") +
-                                            testing::UnitTest::GetInstance()->current_test_info()->name());
-        fs::remove_all(folder);
-        fs::create_directories(folder);
         for (int frame = 1; frame <= 3; ++frame) write_frame(frame, frame == 3 ? 32 : 16);
     }
-    void TearDown() override { fs::remove_all(folder); }
-    std::string at(const std::string& name) const { return (folder / name).string(); }
+    std::string at(const std::string& name) const { return folder / name; }
     void write_frame(int frame, int width) const {
         Frame shot;
         shot.place = Place::whole({0, 0, width, 16});
@@ -44,7 +40,7 @@ struct ShotSheetTest : testing::Test {
         return host;
     }
 
-    fs::path folder;
+    const test::TemporaryFolder folder;
     std::vector<std::string> said;
 };
 

@@ -1,5 +1,7 @@
 #include "petzval/track.h"
 
+#include "base/temporary_folder.h"
+
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -11,14 +13,10 @@ namespace {
 
 class TrackFile : public testing::Test {
 protected:
-    Result<Track> read(const std::string& text) {
-        const auto path =
-            std::filesystem::temp_directory_path() /
-            (std::string("petzval_track_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-        std::ofstream(path) << text;
-        auto track = Track::read(path);
-        std::filesystem::remove(path);
-        return track;
+    static Result<Track> read(const std::string& text) {
+        const test::TemporaryFolder folder;
+        std::ofstream(folder / "track.csv") << text;
+        return Track::read(folder / "track.csv");
     }
 };
 

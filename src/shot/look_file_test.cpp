@@ -1,8 +1,9 @@
 #include "petzval/look_file.h"
 
+#include "base/temporary_folder.h"
+
 #include <filesystem>
 #include <fstream>
-#include <unistd.h>
 
 #include <gtest/gtest.h>
 
@@ -13,17 +14,13 @@ namespace fs = std::filesystem;
 
 class LookFile : public testing::Test {
 protected:
-    LookFile() {
+    void SetUp() override {
         fs::create_directories(folder_ / "looks");
         fs::create_directories(folder_ / "lenses");
         std::ofstream(folder_ / "lenses/mine.json") << "{}";
-        before_ = fs::current_path();
         fs::current_path(folder_);
     }
-    ~LookFile() override {
-        fs::current_path(before_);
-        fs::remove_all(folder_);
-    }
+    void TearDown() override { fs::current_path(before_); }
 
     static std::string refusal(const std::string& path) {
         const auto look = read_look(path);
@@ -31,7 +28,8 @@ protected:
         return look ? "" : look.error().message;
     }
 
-    fs::path before_, folder_ = fs::temp_directory_path() / ("petzval-look-" + std::to_string(::getpid()));
+    const test::TemporaryFolder own_;
+    const fs::path folder_ = own_.path(), before_ = fs::current_path();
 };
 
 TEST_F(LookFile, ComesBackAsItWas) {

@@ -2,6 +2,7 @@
 
 #include "base/content_hash.h"
 #include "base/parallel.h"
+#include "base/temporary_folder.h"
 #include "kernel/lenses/kernel_testing.h"
 
 #include <cstring>
@@ -22,9 +23,6 @@ constexpr std::size_t kRoomy = std::size_t(64) << 20;
 
 class KernelStoreTest : public testing::Test {
 protected:
-    void SetUp() override { fs::remove_all(folder_); }
-    void TearDown() override { fs::remove_all(folder_); }
-
     std::vector<fs::path> segments() const {
         std::vector<fs::path> found;
         std::error_code none;
@@ -44,8 +42,8 @@ protected:
     std::size_t found() const { return store_->kernels_found(); }
     void forget() { store_.reset(); }
 
-    const std::string folder_ =
-        testing::TempDir() + "kernel_store_" + testing::UnitTest::GetInstance()->current_test_info()->name();
+    const test::TemporaryFolder own_;
+    const std::string folder_ = own_ / "kernels";
     std::shared_ptr<KernelStore> store_;
 };
 

@@ -1,5 +1,6 @@
 #include "petzval/lens.h"
 
+#include "base/temporary_folder.h"
 #include "kernel/lenses/kernel_testing.h"
 #include "kernel/lenses/opened_lens.h"
 #include "lens_files/shelf.h"
@@ -24,18 +25,16 @@ LensChoice named(const std::string& name) {
 
 Lens opened(const LensChoice& choice) { return Lens::open(choice).value(); }
 
-// A file of the test's own, gone when it ends.
 class LensFileTest : public testing::Test {
 protected:
-    void SetUp() override { fs::remove(path_); }
-    void TearDown() override { fs::remove(path_); }
     void write(std::string_view text) const { std::ofstream(path_) << text; }
     static std::string_view shelf_text(const std::string& name) {
         for (const lens_files::ShelfItem& item : lens_files::shelf())
             if (item.name == name) return item.text;
         return {};
     }
-    const std::string path_ = testing::TempDir() + "petzval_lens_test.json";
+    const test::TemporaryFolder folder_;
+    const std::string path_ = folder_ / "lens.json";
 };
 
 TEST_F(LensFileTest, OnceOpenedALensNeedsItsFileNoMore) {

@@ -1,6 +1,8 @@
 // Small files written here: what is right is seen where it stands, what is wrong is refused in one line.
 #include "petzval/scene.h"
 
+#include "base/temporary_folder.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -56,9 +58,6 @@ protected:
         if (!built && built.error().code == ErrorCode::Unsupported) GTEST_SKIP() << built.error().message;
     }
     Result<StandingScene> build(const std::string& text) {
-        // Tests run side by side.
-        path_ = testing::TempDir() + "petzval-" +
-                testing::UnitTest::GetInstance()->current_test_info()->name() + ".gltf";
         std::ofstream(path_) << text;
         return StandingScene::build(path_, settings_);
     }
@@ -72,7 +71,8 @@ protected:
     }
 
     SceneSettings settings_;
-    std::string path_;
+    const test::TemporaryFolder folder_;
+    const std::string path_ = folder_ / "scene.gltf";
 };
 
 TEST_F(GltfScenes, TrianglesStandWhereTheFilesCameraSeesThem) {

@@ -2,6 +2,7 @@
 #include "petzval/glare.h"
 
 #include "base/parallel.h"
+#include "base/temporary_folder.h"
 #include "device/cpu/glare/bloom.h"
 #include "glare/bloom.h"
 #include "glare/ghosts.h"
@@ -109,7 +110,8 @@ TEST(Ghosts, AGhostIsMirroredWithItsLight) {
 TEST(Ghosts, TwoReflectionsInAPlaneWindowFallOnTheImageItself) {
     // Light leaves the parallel planes of a thin window as it came in: a ghost of a window in front of a lens
     // lies on the picture, sharp. The same matrices, from a lens file written here.
-    const std::string path = ::testing::TempDir() + "petzval_window.json";
+    const test::TemporaryFolder folder;
+    const std::string path = folder / "window.json";
     std::FILE* file = std::fopen(path.c_str(), "w");
     ASSERT_NE(file, nullptr);
     std::fputs(R"({"id": "window", "name": "window and lens", "units": "mm", "object": "infinity",
