@@ -4,6 +4,7 @@
 #include "petzval/scene.h"
 #include "petzval/workers.h"
 
+#include "image/srgb.h"
 #include "scene/built_in/scenes.h"
 
 #include <cmath>
@@ -56,9 +57,9 @@ Spot spot(const Picture& p) {
     return s;
 }
 
-// Scenes of programs that treated codes as light: each object has its own code, and codes are added.
-TEST(LightInCodes, IsTheCodeOfEveryThingAndLightsAddAsCodes) {
-    const auto code = [](float light) { return std::pow(light, 1 / 2.2f); };
+// Scenes of programs that treated codes as light: each point has the code of its light, however many lamps
+// light it, and a pixel is the mean of codes.
+TEST(LightInCodes, IsTheCodeOfEveryPointsLight) {
     for (const int lights : {1, 2}) {
         World world;
         world.sky = [](Vec3) { return Vec3{}; };
@@ -75,8 +76,8 @@ TEST(LightInCodes, IsTheCodeOfEveryThingAndLightsAddAsCodes) {
         SceneSettings s = settings(8, 4);
         s.want_truth = false;
         const RenderedScene seen = rendered(world, s);
-        EXPECT_NEAR(seen.colour(1, 2).g, float(lights) * code(0.3f) * code(0.5f), 1e-3f);
-        EXPECT_NEAR(seen.colour(6, 2).g, code(40), 1e-3f);
+        EXPECT_NEAR(seen.colour(1, 2).g, srgb_code(float(lights) * 0.3f * 0.5f), 1e-3f);
+        EXPECT_NEAR(seen.colour(6, 2).g, srgb_code(40.0f), 1e-3f);
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/check.h"
 #include "base/parallel.h"
+#include "image/srgb.h"
 #include "scene/sampling.h"
 
 #include <limits>
@@ -45,28 +46,16 @@ struct World::Object {
 namespace {
 
 Vec3 code(Vec3 light) {
-    const auto of = [](float v) { return std::pow(std::max(v, 0.0f), 1 / 2.2f); };
+    const auto of = [](float v) { return srgb_code(std::max(v, 0.0f)); };
     return {of(light.x), of(light.y), of(light.z)};
 }
-
-// Code of a white sheet with this irradiance, whose radiance is 1 / pi of it.
-Vec3 irradiance_for_code(Vec3 irradiance) { return kPi * code(irradiance / kPi); }
 
 }  // namespace
 
 void World::light_in_codes() {
-    PETZVAL_CHECK(is_baked);
-    for (auto& object : objects_)
-        object->paint = [light = std::move(object->paint)](const SurfacePoint& at) {
-            const Matter matter = light(at);
-            return Matter{code(matter.albedo), code(matter.emission)};
-        };
-    sky = [light = std::move(sky)](Vec3 direction) { return code(light(direction)); };
+    PETZVAL_CHECK(is_baked && !is_in_codes_);
     for (Lamp& lamp : lamps_) lamp.radiance = code(lamp.radiance);
-    for (Light& light : lights) light.power = irradiance_for_code(light.power);
-    ambient_above = irradiance_for_code(ambient_above);
-    ambient_below = irradiance_for_code(ambient_below);
-    brightest_bounce = code({brightest_bounce, 0, 0}).x;
+    is_in_codes_ = true;
 }
 
 Arrival arrival(const Light& light, Vec3 position) {
@@ -274,13 +263,13 @@ Vec3 World::indirect_irradiance(Vec3 position, Vec3 normal, std::uint32_t seed) 
         around.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         rtcIntersect1(rays_, &context, &around);
         if (is_lamp(around.hit.geomID)) continue;
-        const Vec3 arriving = radiance({around.hit.geomID,
-                                        around.hit.primID,
-                                        around.hit.u,
-                                        around.hit.v,
-                                        from + around.ray.tfar * direction,
-                                        {around.hit.Ng_x, around.hit.Ng_y, around.hit.Ng_z},
-                                        direction});
+        const Vec3 arriving = light({around.hit.geomID,
+                                     around.hit.primID,
+                                     around.hit.u,
+                                     around.hit.v,
+                                     from + around.ray.tfar * direction,
+                                     {around.hit.Ng_x, around.hit.Ng_y, around.hit.Ng_z},
+                                     direction});
         sum += std::min(1.0f, brightest_bounce / std::max(luminance(arriving), 1e-9f)) * arriving;
     }
     return kPi * sum / float(kBakeRays);
@@ -351,8 +340,12 @@ Matter World::matter(const Hit& hit) const {
 }
 
 Vec3 World::radiance(const Hit& hit) const {
-    if (hit.object == kSky) return sky(hit.direction);
     if (is_lamp(hit.object)) return lamps_[hit.primitive].radiance;
+    return is_in_codes_ ? code(light(hit)) : light(hit);
+}
+
+Vec3 World::light(const Hit& hit) const {
+    if (hit.object == kSky) return sky(hit.direction);
     const Matter m = matter(hit);
     if (!is_baked) return m.emission;
     const Object& object = *objects_[hit.object];

@@ -102,10 +102,10 @@ public:
     void add(Mesh mesh, Paint paint, Sides sides, Cutout cutout = nullptr);
     void add(Tubes tubes, Paint paint);
     void add_lamp(Vec3 centre, float radius_m, Vec3 radiance);
-    // Lights the scene in display codes (gamma 2.2), as programs did that took codes for light and set lights
-    // by eye. Paints, sky and lamps have the codes of their colours; a light's strength is the one at which a
-    // white sheet lit by it alone (from 1 m if it is near) has the code of its true brightness. Radiance then
-    // is codes. Requires: is_baked; before commit().
+    // Shows the scene in display codes (sRGB), as programs did that took codes for light: their textures
+    // and light maps were painted until a surface had the code that it should have on the display. Radiance
+    // then is the code of the light of each point, and lenses and pixels add codes. Requires: is_baked; once,
+    // before commit().
     void light_in_codes();
 
     // Builds the ray tracing structure and bakes light. Errors: OutOfMemory.
@@ -137,6 +137,7 @@ public:
 
 private:
     struct Object;
+    Vec3 light(const Hit& hit) const;  // hit: no lamp
     static void open_holes(const RTCFilterFunctionNArguments* hits);
     void attach_lamps();
     Status commit_rays();
@@ -157,6 +158,7 @@ private:
     std::vector<std::unique_ptr<Object>> objects_;  // by Embree geometry id
     std::vector<Lamp> lamps_;
     std::uint32_t lamp_object_ = kSky;
+    bool is_in_codes_ = false;
     Vec3* lamp_normals_ = nullptr;  // Embree's, after commit()
 };
 

@@ -197,6 +197,18 @@ class Scene(CommandLineTest):
         self.assertLess(max(map(max, codes["G"])), 0.5 * max(map(max, light["G"])))
         self.refuse(2, "scene", "make", "wgld", "-o", "out.exr", "--lit-in", "codes", says=["--lit-in", "wgld"])
 
+    def test_before_the_blur_nobody_sees_that_a_scene_was_lit_in_codes(self):
+        for lit in ("light", "codes"):
+            self.succeed("scene", "make", "dynamic-range", "-o", f"{lit}.exr", "--lit-in", lit,
+                         "--width", "480", "--height", "270", "--pinhole-samples", "16")
+            curve = ["--tone", "none"] + (["--transfer", "linear"] if lit == "codes" else [])
+            self.succeed("develop", f"{lit}.exr", "-o", f"{lit}_sharp.png", *curve)
+            self.succeed("defocus", f"{lit}.exr", "-o", f"{lit}_blurred.png", *curve)
+        sharp, blurred = (self.report("compare", f"light_{state}.png", f"codes_{state}.png")["psnr_srgb"]
+                          for state in ("sharp", "blurred"))
+        self.assertGreater(sharp, 28)
+        self.assertLess(blurred, sharp - 5)
+
     def test_a_scene_can_be_focused_on_a_point_of_its_world(self):
         self.succeed("scene", "make", "table", "-o", "table.exr", *self.SMALL)
         # The chequered ball's middle, from 0,0.26,0 looking at 0,0.06,1.2.
