@@ -1,4 +1,5 @@
-// A look as text, to keep, to send and to compare: JSON, one key a field, in sections.
+// A look as text, to keep, to send and to compare: JSON, one key a field, in sections. Presets: looks by
+// name.
 #pragma once
 
 #include "petzval/export.h"
@@ -40,5 +41,24 @@ PETZVAL_API Result<Look> look_from_json(const std::string& text);
 // where a name or a file needs no quotes. Errors: InvalidArgument for an unknown path or a value of the wrong
 // type.
 PETZVAL_API Result<Look> look_with(Look look, const std::string& path, const std::string& value);
+
+// Files that a look names (a lens, pictures of an aperture or of a disc) stand in its text as they are seen
+// from the folder of the look, so that both can be moved together; in a Look they are as seen from the
+// current folder. A lens is a file where its name has a slash in it, or an extension and is there.
+
+// Errors: InvalidFile with the path: no regular file, more than a megabyte, or what look_from_json() refuses.
+// `path` may also be a link of the lens lab. Errors of a link: InvalidFile.
+PETZVAL_API Result<Look> read_look(const std::string& path);
+// The text of a look file that lies in `folder`.
+PETZVAL_API std::string look_to_json_in(const Look& look, const std::string& folder);
+
+// The folder of a user's own presets, NAME.json: $PETZVAL_PRESETS, otherwise petzval/presets in
+// $XDG_CONFIG_HOME or ~/.config; empty where none of them is set.
+PETZVAL_API std::string preset_folder();
+// A preset of that folder, otherwise one that ships. Errors: those of read_look(); InvalidArgument that
+// lists all presets.
+PETZVAL_API Result<Look> read_preset(const std::string& name);
+// All of them, a user's own first; broken files are left out.
+PETZVAL_API std::vector<LookPreset> all_presets();
 
 }  // namespace petzval

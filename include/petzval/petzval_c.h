@@ -103,6 +103,8 @@ PETZVAL_C_API petzval_status petzval_session_trim(petzval_session* session, uint
 /* The engines and the lenses that ship, from 0 on; null behind the last. Live for ever. */
 PETZVAL_C_API const char* petzval_engine_name(int index);
 PETZVAL_C_API const char* petzval_lens_name(int index);
+/* The presets that were there when this was first asked: a user's own, then those that ship. */
+PETZVAL_C_API const char* petzval_preset_name(int index);
 /* The devices that were there when this was first asked: "cpu", "gpu:0", …. Starts drivers. */
 PETZVAL_C_API const char* petzval_device_name(int index);
 
@@ -115,6 +117,9 @@ PETZVAL_C_API petzval_status petzval_look_new(petzval_look** look); /* the defau
 /* A look as `petzval defocus --save-look` writes it; its key "preset" names a look to start from. Or a link
  * of the lens lab, the URL or its fragment. Errors: invalid_file. */
 PETZVAL_C_API petzval_status petzval_look_from_json(const char* json, petzval_look** look);
+/* A preset by name: a user's own, NAME.json in $PETZVAL_PRESETS or ~/.config/petzval/presets, otherwise one
+ * that ships. Errors: invalid_argument that lists the names; invalid_file for a broken file. */
+PETZVAL_C_API petzval_status petzval_look_from_preset(const char* name, petzval_look** look);
 /* Sets one field, as in the JSON: petzval_look_set(look, "engine", "gather"), (look, "lens.blades",
  * "5"). The value is JSON, or a plain word where a name is wanted. The look is unchanged if it is refused. */
 PETZVAL_C_API petzval_status petzval_look_set(petzval_look* look, const char* field, const char* value);

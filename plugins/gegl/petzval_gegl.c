@@ -9,14 +9,14 @@
 typedef struct {
     GeglOperationComposer parent;
     double numbers[5]; /* by Property */
-    char *lens, *look;
+    char *lens, *look, *preset;
 } Defocus;
 
 typedef struct {
     GeglOperationComposerClass parent;
 } DefocusClass;
 
-enum Property { FOCAL_LENGTH, SENSOR_WIDTH, F_NUMBER, FOCUS_DISTANCE, DEPTH_UNIT, LENS, LOOK };
+enum Property { FOCAL_LENGTH, SENSOR_WIDTH, F_NUMBER, FOCUS_DISTANCE, DEPTH_UNIT, LENS, LOOK, PRESET };
 
 static const struct {
     const char *name, *label, *what;
@@ -29,12 +29,25 @@ static const struct {
     {"depth-unit", "Depth unit", "metres per unit of depth", 1e-9, 1e9, 1},
 };
 
+static const struct {
+    const char *name, *label, *what;
+} TEXTS[] = {
+    {"lens", "Lens", "name of a lens, or path of a lens file"},
+    {"look", "Look", "look as JSON, link of the lens lab or path"},
+    {"preset", "Preset", "name of a look that ships or is in your folder of presets"},
+};
+
+static gboolean text_given(const char* text) { return text && *text; }
 static GTypeInstance* of(gpointer object) { return (GTypeInstance*)object; }
 static Defocus* self_of(gpointer object) { return (Defocus*)(void*)of(object); }
 
+static char** text_of(Defocus* self, guint property) {
+    return property == LENS ? &self->lens : property == LOOK ? &self->look : &self->preset;
+}
+
 static void set_property(GObject* object, guint id, const GValue* value, GParamSpec* spec) {
     Defocus* self = self_of(object);
-    char** text = id - 1 == LENS ? &self->lens : &self->look;
+    char** text = text_of(self, id - 1);
     (void)spec;
     if (id - 1 < LENS) {
         self->numbers[id - 1] = g_value_get_double(value);
@@ -50,12 +63,13 @@ static void get_property(GObject* object, guint id, GValue* value, GParamSpec* s
     if (id - 1 < LENS)
         g_value_set_double(value, self->numbers[id - 1]);
     else
-        g_value_set_string(value, id - 1 == LENS ? self->lens : self->look);
+        g_value_set_string(value, *text_of(self, id - 1));
 }
 
 static void finalize(GObject* object) {
     g_free(self_of(object)->lens);
     g_free(self_of(object)->look);
+    g_free(self_of(object)->preset);
     G_OBJECT_CLASS(g_type_class_peek_parent(of(object)->g_class))->finalize(object);
 }
 
@@ -100,15 +114,20 @@ static petzval_session* session(void) {
     return opened;
 }
 
-/* The look of the properties: JSON, a link of the lens lab, or the path of a file. */
-static petzval_status look_of(const Defocus* self, petzval_look** look) {
-    const char* text = self->look && *self->look ? self->look : "{\"petzval_look\": 1}";
+/* The look of a text: JSON, a link of the lens lab, or the path of a file. */
+static petzval_status look_of_text(const char* text, petzval_look** look) {
     char* read = NULL;
-    petzval_status status;
-    if (g_file_get_contents(text, &read, NULL, NULL)) text = read;
-    status = petzval_look_from_json(text, look);
+    const petzval_status status =
+        petzval_look_from_json(g_file_get_contents(text, &read, NULL, NULL) ? read : text, look);
     g_free(read);
-    if (!status && self->lens && *self->lens) status = petzval_look_set(*look, "lens.name", self->lens);
+    return status;
+}
+
+static petzval_status look_of(const Defocus* self, petzval_look** look) {
+    const char* text = text_given(self->look) ? self->look : "{\"petzval_look\": 1}";
+    petzval_status status = text_given(self->preset) ? petzval_look_from_preset(self->preset, look)
+                                                          : look_of_text(text, look);
+    if (!status && text_given(self->lens)) status = petzval_look_set(*look, "lens.name", self->lens);
     return status;
 }
 
@@ -149,6 +168,8 @@ static gboolean process(GeglOperation* operation, GeglBuffer* input, GeglBuffer*
     rgba = g_try_malloc_n(count, 16), depth = g_try_malloc_n(count, 4);
     if (!aux) {
         g_warning("petzval:defocus: connect depth to the pad aux");
+    } else if (text_given(self_of(operation)->preset) && text_given(self_of(operation)->look)) {
+        g_warning("petzval:defocus: preset and look are both given; empty one of them");
     } else if (!rgba || !depth) {
         g_warning("petzval:defocus: no memory for %d x %d pixels", all.width, all.height);
     } else {
@@ -180,12 +201,10 @@ static void class_init(gpointer class, gpointer data) {
             object, i + 1,
             g_param_spec_double(NUMBERS[i].name, NUMBERS[i].label, NUMBERS[i].what, NUMBERS[i].least,
                                 NUMBERS[i].most, NUMBERS[i].usual, flags));
-    g_object_class_install_property(
-        object, LENS + 1,
-        g_param_spec_string("lens", "Lens", "name of a lens, or path of a lens file", "", flags));
-    g_object_class_install_property(
-        object, LOOK + 1,
-        g_param_spec_string("look", "Look", "look as JSON, link of the lens lab or path", "", flags));
+    for (i = 0; i < G_N_ELEMENTS(TEXTS); ++i)
+        g_object_class_install_property(
+            object, LENS + 1 + i,
+            g_param_spec_string(TEXTS[i].name, TEXTS[i].label, TEXTS[i].what, "", flags));
     operation->prepare = prepare, operation->threaded = FALSE;
     operation->get_bounding_box = whole, operation->get_required_for_output = required;
     operation->get_cached_region = cached, operation->get_invalidated_by_change = invalidated;

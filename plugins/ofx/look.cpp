@@ -33,10 +33,18 @@ Result<LookHandle> named_look(const std::string& text) {
     return trimmed[0] == '{' || is_link ? from_json(trimmed) : from_file(trimmed);
 }
 
+Result<LookHandle> preset_look(const Values& values) {
+    if (!values.look.empty()) return refused("Preset and Look are both given; empty one of them");
+    petzval_look* look = nullptr;
+    if (petzval_look_from_preset(values.preset.c_str(), &look) != PETZVAL_OK)
+        return refused(std::string("Preset: ") + petzval_error_text());
+    return LookHandle(look);
+}
+
 }  // namespace
 
 Result<LookHandle> look_of(const Values& values, bool draft) {
-    auto look = named_look(values.look);
+    auto look = values.preset.empty() ? named_look(values.look) : preset_look(values);
     if (!look) return look;
     const auto choose = [&](const char* field, const std::string& value) {
         return value.empty() || petzval_look_set(look->get(), field, value.c_str()) == PETZVAL_OK;

@@ -1,4 +1,5 @@
-// The look of a frame: from the parameter Look, changed by the parameters for lens, engine and quality.
+// The look of a frame: from the parameter Preset or Look, changed by the parameters for lens, engine and
+// quality.
 #pragma once
 
 #include "petzval/petzval_c.h"

@@ -3,6 +3,7 @@
 #include "petzval/names.h"
 #include "petzval/petzval_c.h"
 
+#include <algorithm>
 #include <array>
 
 namespace petzval::plugin {
@@ -46,6 +47,8 @@ constexpr std::array kTexts{
          &Values::lens, false},
     Text{"look", "Look", "A look: its JSON, the path of a look file, or a link of the lens lab.", "optics",
          &Values::look, false},
+    Text{name::kPreset, "Preset", "Name of a look that ships or is in your folder of presets; empty: none.",
+         "optics", &Values::preset, false},
 };
 
 // Words of a menu; the first is its default.
@@ -68,10 +71,26 @@ std::vector<std::string> words_of(std::vector<std::string> words = {}) {
     return words;
 }
 
-std::vector<std::string> lenses() {
-    std::vector<std::string> words{"choose a lens"};
-    for (int i = 0; petzval_lens_name(i); ++i) words.emplace_back(petzval_lens_name(i));
-    return words;
+// A menu whose words are written into a text, which a project keeps: their numbers change between versions.
+struct Writer {
+    const char *menu, *text, *first, *label, *hint;
+    const char* (*word)(int index);
+};
+constexpr std::array kWriters{
+    Writer{name::kLensMenu, name::kLens, "choose a lens", "Lens menu", "Writes the name of a lens into Lens.",
+           petzval_lens_name},
+    Writer{name::kPresetMenu, name::kPreset, "choose a preset", "Preset menu",
+           "Writes the name of a preset into Preset.", petzval_preset_name},
+};
+
+Menu menu_of(const Writer& writer) {
+    Menu menu{writer.menu, writer.label, writer.hint, "optics", {writer.first}};
+    for (int i = 0; writer.word(i); ++i) menu.words.emplace_back(writer.word(i));
+    return menu;
+}
+
+bool is_writer(const std::string& menu) {
+    return std::any_of(kWriters.begin(), kWriters.end(), [&](const Writer& w) { return menu == w.menu; });
 }
 
 std::vector<Menu> menus() {
@@ -91,7 +110,8 @@ std::vector<Menu> menus() {
              "depth",
              {"auto", "clip", "file", "alpha"}},
             {"depthKind", "Depth kind", "Meaning of the depth channel.", "depth", words_of<DepthKind>()},
-            {name::kLensMenu, "Lens menu", "Writes the name of a lens into Lens.", "optics", lenses()},
+            menu_of(kWriters[0]),
+            menu_of(kWriters[1]),
             {"engine", "Engine", "Method that computes the blur.", "optics", engines()},
             {"quality", "Quality", "Accuracy; the blur keeps its size.", "optics",
              words_of<Quality>({kOfTheLook})}};
@@ -113,9 +133,7 @@ void define_menus(ofx::ParamSet* params) {
         for (int i = 0; i < int(menu.words.size()); ++i)
             p.set(ofx::param::kChoiceOption, menu.words[std::size_t(i)].c_str(), i);
         p.set(ofx::param::kDefault, 0).set(ofx::param::kAnimates, 0);
-        // Numbers of lenses change between versions; the name in `lens` is what a project keeps.
-        if (std::string(menu.name) == name::kLensMenu)
-            p.set(ofx::param::kPersistent, 0).set(ofx::param::kEvaluates, 0);
+        if (is_writer(menu.name)) p.set(ofx::param::kPersistent, 0).set(ofx::param::kEvaluates, 0);
     }
 }
 
@@ -205,11 +223,16 @@ Values values_at(ofx::Effect* instance, ofx::Time time) {
     return v;
 }
 
-void take_lens_of_menu(ofx::Effect* instance, ofx::Time time) {
-    const int chosen = value_of(instance, name::kLensMenu, time, 0);
-    ofx::Param* lens = param_of(instance, name::kLens);
-    const char* word = chosen > 0 ? petzval_lens_name(chosen - 1) : nullptr;
-    if (lens && word) suites().parameter->set_value(lens, word);
+bool take_word_of_menu(ofx::Effect* instance, std::string_view menu, ofx::Time time) {
+    for (const Writer& writer : kWriters) {
+        if (menu != writer.menu) continue;
+        const int chosen = value_of(instance, writer.menu, time, 0);
+        ofx::Param* text = param_of(instance, writer.text);
+        const char* word = chosen > 0 ? writer.word(chosen - 1) : nullptr;
+        if (text && word) suites().parameter->set_value(text, word);
+        return true;
+    }
+    return false;
 }
 
 }  // namespace petzval::plugin

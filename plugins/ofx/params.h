@@ -6,6 +6,7 @@
 #include "host.h"
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace petzval::plugin {
@@ -14,6 +15,8 @@ namespace petzval::plugin {
 namespace name {
 inline constexpr const char* kLens = "lens";
 inline constexpr const char* kLensMenu = "lensMenu";
+inline constexpr const char* kPreset = "preset";
+inline constexpr const char* kPresetMenu = "presetMenu";
 inline constexpr const char* kFocusPoint = "focusPoint";
 inline constexpr const char* kFocusFrom = "focusFrom";
 }  // namespace name
@@ -31,7 +34,7 @@ struct Values {
     std::string depth_file, depth_channel;
     DepthKind depth_kind = DepthKind::Planar;
     double depth_unit_m = 1, depth_near = 0, depth_far = 0;
-    std::string lens, look;
+    std::string lens, look, preset;
     std::string engine, quality;  // empty: those of the look
     bool draft_when_interactive = true;
 };
@@ -39,8 +42,9 @@ struct Values {
 void define_params(ofx::Effect* descriptor);
 // Defaults stand where the host has no value.
 Values values_at(ofx::Effect* instance, ofx::Time time);
-// The user has chosen a lens in the menu: its name becomes the value of `lens`.
-void take_lens_of_menu(ofx::Effect* instance, ofx::Time time);
+// The user has chosen in the menu of that name, which writes into a text: of lenses into `lens`, of presets
+// into `preset`. False, and nothing happens, for other names.
+bool take_word_of_menu(ofx::Effect* instance, std::string_view menu, ofx::Time time);
 
 ofx::Param* param_of(ofx::Effect* instance, const char* name);
 

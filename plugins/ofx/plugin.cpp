@@ -21,10 +21,9 @@ int load() {
 }
 
 int changed(ofx::Effect* effect, const Properties& in) {
-    if (in.text(ofx::kName) != name::kLensMenu || in.text(ofx::kChangeReason) != ofx::kUserEdited)
-        return ofx::kReplyDefault;
-    take_lens_of_menu(effect, in.number(ofx::kTime));
-    return ofx::kOk;
+    if (in.text(ofx::kChangeReason) != ofx::kUserEdited) return ofx::kReplyDefault;
+    return take_word_of_menu(effect, in.text(ofx::kName), in.number(ofx::kTime)) ? ofx::kOk
+                                                                                 : ofx::kReplyDefault;
 }
 
 int about_frames(std::string_view action, ofx::Effect* effect, const Properties& in, const Properties& out) {

@@ -12,11 +12,11 @@ from .comparison import compare
 from .errors import Cancelled, Error, Internal, InvalidArgument, InvalidFile, OutOfMemory, OutputFailed, ReadFailed, Unsupported
 from .files import FileShot, inspect, make_scene, read_shot
 from .lens import Lens, lens_list, lens_names
-from .look import Look
+from .look import Look, preset_names
 from .run import ShotRun
 from .session import Codes, Frame, Session, defocus, device_names, engine_names
 from .shot import Deep, Layer, Light, Shot
-__all__ = ['Array', 'Camera', 'Cancelled', 'Codes', 'Deep', 'Error', 'FileShot', 'Frame', 'Internal', 'InvalidArgument', 'InvalidFile', 'Layer', 'Lens', 'Light', 'Look', 'OutOfMemory', 'OutputFailed', 'ReadFailed', 'Session', 'Shot', 'ShotRun', 'Unsupported', 'compare', 'defocus', 'device_names', 'engine_names', 'inspect', 'lens_list', 'lens_names', 'make_scene', 'read_shot', 'version']
+__all__ = ['Array', 'Camera', 'Cancelled', 'Codes', 'Deep', 'Error', 'FileShot', 'Frame', 'Internal', 'InvalidArgument', 'InvalidFile', 'Layer', 'Lens', 'Light', 'Look', 'OutOfMemory', 'OutputFailed', 'ReadFailed', 'Session', 'Shot', 'ShotRun', 'Unsupported', 'compare', 'defocus', 'device_names', 'engine_names', 'inspect', 'lens_list', 'lens_names', 'make_scene', 'preset_names', 'read_shot', 'version']
 
 def version() -> str:
     """Version of the library that is loaded, as "0.1.0"."""

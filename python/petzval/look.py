@@ -5,7 +5,7 @@ import ctypes
 import json
 
 from . import _declared, errors
-from ._library import call, library, made
+from ._library import call, library, made, names
 from .lens import Lens
 
 
@@ -34,6 +34,14 @@ class Look:
         look._lens = None
         look._handle = ctypes.POINTER(_declared.petzval_look)()
         call("petzval_look_from_json", text.encode(), ctypes.byref(look._handle))
+        return look
+
+    @classmethod
+    def preset(cls, name: str) -> Look:
+        """A look by name: one of preset_names(). Raises InvalidArgument that lists the names, InvalidFile for a broken file."""
+        look = cls.__new__(cls)
+        look._lens = None
+        look._handle = made(_declared.petzval_look, "petzval_look_from_preset", name.encode())
         return look
 
     def to_json(self) -> str:
@@ -77,6 +85,11 @@ class Look:
 
     def __repr__(self) -> str:
         return f"petzval.Look(engine={self['engine']!r}, lens={self['lens.name']!r})"
+
+
+def preset_names() -> list[str]:
+    """Names for Look.preset: your own NAME.json in $PETZVAL_PRESETS or ~/.config/petzval/presets, then those that ship."""
+    return names("petzval_preset_name")
 
 
 def as_look(given: Look | str | dict | None) -> Look:

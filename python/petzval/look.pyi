@@ -4,7 +4,7 @@ from __future__ import annotations
 import ctypes
 import json
 from . import _declared, errors
-from ._library import call, library, made
+from ._library import call, library, made, names
 from .lens import Lens
 
 class Look:
@@ -23,6 +23,10 @@ class Look:
     @classmethod
     def from_json(cls, text: str) -> Look:
         """A look as Look.to_json and `petzval defocus --save-look` write it, or a link of the lens lab. Raises InvalidFile."""
+
+    @classmethod
+    def preset(cls, name: str) -> Look:
+        """A look by name: one of preset_names(). Raises InvalidArgument that lists the names, InvalidFile for a broken file."""
 
     def to_json(self) -> str:
         """Every field, as JSON."""
@@ -43,6 +47,9 @@ class Look:
 
     def __repr__(self) -> str:
         ...
+
+def preset_names() -> list[str]:
+    """Names for Look.preset: your own NAME.json in $PETZVAL_PRESETS or ~/.config/petzval/presets, then those that ship."""
 
 def as_look(given: Look | str | dict | None) -> Look:
     """A look, its JSON, or a dictionary of its fields; None: the defaults."""

@@ -7,13 +7,21 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
 using petzval::look_from_json;
 using petzval::look_to_json;
 using petzval::look_with;
+using petzval::read_preset;
 using petzval::c::fail;
 using petzval::c::guarded;
 using petzval::c::missing;
+
+const char* petzval_preset_name(int index) {
+    static const std::vector<petzval::LookPreset> presets = petzval::all_presets();
+    return index >= 0 && std::size_t(index) < presets.size() ? presets[std::size_t(index)].name.c_str()
+                                                             : nullptr;
+}
 
 petzval_status petzval_look_new(petzval_look** look) {
     if (!look) return missing("look");
@@ -30,6 +38,18 @@ petzval_status petzval_look_from_json(const char* json, petzval_look** look) {
     if (!json) return missing("json");
     return guarded([&] {
         auto read = look_from_json(json);
+        if (!read) return fail(read.error());
+        *look = new petzval_look{std::move(*read), {}, {}};
+        return PETZVAL_OK;
+    });
+}
+
+petzval_status petzval_look_from_preset(const char* name, petzval_look** look) {
+    if (!look) return missing("look");
+    *look = nullptr;
+    if (!name) return missing("name");
+    return guarded([&] {
+        auto read = read_preset(name);
         if (!read) return fail(read.error());
         *look = new petzval_look{std::move(*read), {}, {}};
         return PETZVAL_OK;

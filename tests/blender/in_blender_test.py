@@ -231,7 +231,11 @@ class Refusals(InBlender):
         self.refused("look.json cannot be read: is not JSON")
         choices.look_file = self.path("missing.json")
         self.refused("No such file")
-        choices.look_file, choices.focus = "", "SURFACE"
+        choices.preset = "night"
+        self.refused("both given")
+        choices.look_file, choices.preset = "", "nigt"
+        self.refused("did you mean night.*there are .*portrait")
+        choices.preset, choices.focus = "", "SURFACE"
         self.refused("needs a focus object")
         hidden = bpy.data.objects.new("hidden", None)
         self.scene.collection.objects.link(hidden)

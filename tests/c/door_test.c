@@ -146,6 +146,22 @@ static void test_looks(petzval_session* session) {
     petzval_look_close(look);
 }
 
+static void test_presets_have_names(void) {
+    petzval_look* look = NULL;
+    const char* json = NULL;
+    int count = 0, is_night = 0;
+    for (; petzval_preset_name(count); ++count)
+        if (strcmp(petzval_preset_name(count), "night") == 0) is_night = 1;
+    expect(count >= 9 && is_night && !petzval_preset_name(-1), "presets are listed");
+    expect(petzval_look_from_preset("night", &look) == PETZVAL_OK, "a preset by name");
+    expect(petzval_look_json(look, &json) == PETZVAL_OK && strstr(json, "\"blades\": 8"), "is its look");
+    petzval_look_close(look);
+    expect(petzval_look_from_preset("nigt", &look) == PETZVAL_INVALID_ARGUMENT && look == NULL, "not there");
+    expect(strstr(petzval_error_text(), "did you mean night") != NULL, "with the name that was meant");
+    expect(strstr(petzval_error_text(), "portrait, bubble") != NULL, "and all others");
+    expect(petzval_look_from_preset(NULL, &look) == PETZVAL_INVALID_ARGUMENT, "no name");
+}
+
 static void test_what_is_wrong_is_said_and_nothing_is_written(petzval_session* session) {
     static picture in, out, before;
     petzval_look* look = NULL;
@@ -497,6 +513,7 @@ int main(void) {
     test_rows_may_lie_bottom_up(session);
     test_a_frame_may_be_made_in_place(session);
     test_looks(session);
+    test_presets_have_names();
     test_what_is_wrong_is_said_and_nothing_is_written(session);
     test_threads_may_be_lent(session);
     test_a_region_is_a_crop_of_the_whole(session);

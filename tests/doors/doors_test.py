@@ -137,9 +137,18 @@ class Doors(unittest.TestCase):
         self.gegl("gegl", *self.CAMERA)
         self.same("gegl")
 
+    def test_gegl_through_a_preset(self):
+        self.gegl("gegl-preset", *self.CAMERA[:-1], "preset=achromat")
+        run(os.environ["PETZVAL"], "defocus", self.sharp, "-o", self.path("program-preset"), *FLAGS, "--preset", "achromat",
+            "--overwrite")
+        self.assertEqual(planes(self.path("gegl-preset")), planes(self.path("program-preset")))
+        self.assertNotEqual(planes(self.path("gegl-preset")), self.expected)
+
     def test_gegl_warns_and_passes_the_picture_on(self):
         for properties, aux, says in ((self.CAMERA, False, "connect depth"), (("lens=no-such-lens",), True, "no-such-lens"),
-                                      (("look=nonsense",), True, "JSON")):
+                                      (("look=nonsense",), True, "JSON"),
+                                      (("preset=acromat",), True, "did you mean achromat"),
+                                      (("preset=night", "look=own.look"), True, "both given")):
             self.assertIn(says, self.gegl("gegl-refused", *properties, aux=aux))
             self.assertEqual(planes(self.path("gegl-refused")), planes(self.path("gegl-colour")))
 

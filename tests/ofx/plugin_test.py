@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import tempfile
 import unittest
+import unittest.mock
 
 PETZVAL, OFX_CHECK = os.environ["PETZVAL"], os.environ["OFX_CHECK"]
 BUNDLE = pathlib.Path(os.environ["PETZVAL_OFX"]).parents[2]
@@ -114,6 +115,17 @@ class Plugin(unittest.TestCase):
             done = self.render("none.exr", params, *clips, code=2)
             self.assertIn(says, done.stderr)
             self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+
+    def test_presets_are_those_of_the_command_line(self):
+        self.same({"focusDistance": 4.8, "preset": "achromat"}, ["--focus", "4.8m", "--preset", "achromat"])
+        own = pathlib.Path(self.folder) / "presets"
+        own.mkdir()
+        (own / "mine.json").write_text('{"petzval_look": 1, "lens": {"blades": 5, "cats_eye": 0.7}}')
+        with unittest.mock.patch.dict(os.environ, PETZVAL_PRESETS=str(own)):
+            self.same({"focusDistance": 4.8, "preset": "mine"}, ["--focus", "4.8m", "--preset", "mine"])
+            for params, says in (({"preset": "acromat"}, "Preset: there is no preset \"acromat\" (did you mean achromat?); there are mine, portrait"),
+                                 ({"preset": "mine", "look": "own.look"}, "both given")):
+                self.assertIn(says, self.render("none.exr", params, *self.CLIPS, code=2).stderr)
 
     def test_three_names_are_exported(self):
         listing = self.command("nm", "-D", "--defined-only", os.environ["PETZVAL_OFX"]).stdout

@@ -1,14 +1,18 @@
 """Sessions, looks and lenses from Python: results, errors, threads, Ctrl-C."""
 import base64
 import json
+import os
 import pathlib
+import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 import traceback
 import unittest
+import unittest.mock
 
 try:
     import numpy as np
@@ -79,6 +83,26 @@ class Looks(unittest.TestCase):
         self.assertEqual(night["lens"]["blades"], 8)
         with self.assertRaises(KeyError):
             petzval.Look()["lens.nothing"]
+
+    def test_presets_have_names(self):
+        with tempfile.TemporaryDirectory() as folder, unittest.mock.patch.dict(os.environ, PETZVAL_PRESETS=folder):
+            self.assertEqual(petzval.Look.preset("night")["lens.blades"], 8)
+            pathlib.Path(folder, "mine.json").write_text('{"petzval_look": 1, "lens": {"blades": 5}}')
+            self.assertEqual(petzval.Look.preset("mine")["lens.blades"], 5)
+            with self.assertRaisesRegex(petzval.InvalidArgument, "did you mean night.*there are mine, portrait, bubble"):
+                petzval.Look.preset("nigt")
+            pathlib.Path(folder, "broken.json").write_text("{")
+            with self.assertRaisesRegex(petzval.InvalidFile, "broken.json"):
+                petzval.Look.preset("broken")
+        listed = subprocess.run([sys.executable, "-c", "import petzval; print(*petzval.preset_names())"], text=True,
+                                capture_output=True, check=True, env={**os.environ, "PETZVAL_PRESETS": self.own_presets()})
+        self.assertEqual(listed.stdout.split()[:3], ["mine", "portrait", "bubble"])
+
+    def own_presets(self):
+        folder = tempfile.mkdtemp(prefix="petzval-presets-")
+        self.addCleanup(shutil.rmtree, folder)
+        pathlib.Path(folder, "mine.json").write_text(petzval.Look().to_json())
+        return folder
 
     def test_a_look_may_be_a_dictionary(self):
         with petzval.Session(threads=1) as session:

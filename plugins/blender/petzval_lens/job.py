@@ -19,6 +19,7 @@ class Wish:
     """Choices of the panel."""
 
     lens: str = ""
+    preset: str = ""
     look_file: str = ""
     quality: str = "standard"
     cats_eye: float = 0
@@ -122,15 +123,24 @@ class Kept:
         cls.session = None
 
 
+def chosen_look(wish):
+    """The look of the panel's preset or file. Raises Refused, and the errors of petzval."""
+    if wish.preset and wish.look_file:
+        raise Refused("a preset and a look are both given; empty one of them")
+    if wish.preset:
+        return petzval.Look.preset(wish.preset)
+    if not wish.look_file:
+        return petzval.Look()
+    try:
+        with open(bpy.path.abspath(wish.look_file), encoding="utf-8") as file:
+            return petzval.Look.from_json(file.read())
+    except (OSError, UnicodeDecodeError, petzval.Error) as why:
+        raise Refused(f"the look {wish.look_file} cannot be read: {getattr(why, 'strerror', None) or why}") from None
+
+
 def look_of(wish, numbers):
     """The look of the panel and of the camera. Raises Refused, and the errors of petzval."""
-    look = petzval.Look()
-    if wish.look_file:
-        try:
-            with open(bpy.path.abspath(wish.look_file), encoding="utf-8") as file:
-                look = petzval.Look.from_json(file.read())
-        except (OSError, UnicodeDecodeError, petzval.Error) as why:
-            raise Refused(f"the look {wish.look_file} cannot be read: {getattr(why, 'strerror', None) or why}") from None
+    look = chosen_look(wish)
     if wish.lens:
         look.lens = bpy.path.abspath(wish.lens)
     if wish.quality != "standard":
@@ -252,6 +262,7 @@ def animation(scene, view_layer, wish, report):
 
 
 def _ready(scene, wish, report):
+    chosen_look(wish)  # refused before the render
     passes.check(scene, wish)
     for warning in passes.warnings(scene):
         report({"WARNING"}, warning)

@@ -16,8 +16,8 @@ class Panel:
         scene, layout = context.scene, self.layout
         layout.use_property_split = True
         self._facts(layout, context)
-        for name in ("lens", "look_file", "quality", "cats_eye", "focus", "unit", "foreground", "keep_passes",
-                     "to_compositor"):
+        for name in ("lens", "preset", "look_file", "quality", "cats_eye", "focus", "unit", "foreground",
+                     "keep_passes", "to_compositor"):
             layout.prop(scene.petzval_lens, name)
         if scene.petzval_lens.unit == "SCENE" and scene.unit_settings.scale_length != 1:
             layout.label(text="Cycles itself counts a unit as 1 m", icon="INFO")

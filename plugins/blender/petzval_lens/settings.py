@@ -13,6 +13,10 @@ def _lenses():
     return [(lens["name"], lens["title"]) for lens in petzval.lens_list()]
 
 
+def _found_presets(_self, _context, text):
+    return [name for name in petzval.preset_names() if text.lower() in name.lower()]
+
+
 def _found(_self, _context, text):
     return [row for row in _lenses() if text.lower() in " ".join(row).lower()]
 
@@ -21,6 +25,9 @@ class Settings(bpy.types.PropertyGroup):
     lens: bpy.props.StringProperty(
         name="Lens", description="Name of a lens, or a lens file; empty: an ideal lens, or the look's", search=_found,
         search_options={"SUGGESTION"})
+    preset: bpy.props.StringProperty(
+        name="Preset", description="A look by name: one that ships, or NAME.json in your folder of presets",
+        search=_found_presets, search_options={"SUGGESTION"})
     look_file: bpy.props.StringProperty(
         name="Look", description="File of artistic choices, as petzval defocus --save-look writes it",
         subtype="FILE_PATH")
@@ -49,8 +56,8 @@ class Settings(bpy.types.PropertyGroup):
         """The choices as plain values."""
         threads = scene.render.threads if scene.render.threads_mode == "FIXED" else 0
         unit_m = scene.unit_settings.scale_length if self.unit == "SCENE" else 1.0
-        return Wish(self.lens.strip(), self.look_file, self.quality, self.cats_eye, unit_m, self.focus == "SURFACE",
-                    self.foreground, self.keep_passes, self.to_compositor, threads)
+        return Wish(self.lens.strip(), self.preset.strip(), self.look_file, self.quality, self.cats_eye, unit_m,
+                    self.focus == "SURFACE", self.foreground, self.keep_passes, self.to_compositor, threads)
 
 
 def register():
