@@ -6,7 +6,11 @@ for Nuke (metadataToCamera and others); Blender, files of its own with stamped m
 """
 import json
 import math
+import os
+import pathlib
+import shutil
 import struct
+import subprocess
 import unittest
 
 from pictures import attribute, picture, write_exr
@@ -58,7 +62,30 @@ FILES = {
 }
 
 
+# Blender's own render of its first scene, with the lens in the metadata.
+IN_BLENDER = """
+import bpy, sys
+scene = bpy.context.scene
+scene.render.engine, scene.cycles.samples, scene.cycles.use_denoising = "CYCLES", 1, False
+scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = 16, 9, 100
+scene.camera.data.lens, scene.view_layers[0].use_pass_z = 85, True
+scene.render.use_stamp_lens, scene.render.metadata_input = True, "SCENE"
+scene.render.image_settings.file_format = "OPEN_EXR_MULTILAYER"
+scene.render.filepath = sys.argv[-1]
+bpy.ops.render.render(write_still=True)
+"""
+
+
 class Dialects(CommandLineTest):
+    @unittest.skipUnless(shutil.which("blender"), "blender is not installed")
+    def test_a_file_that_blender_has_written(self):
+        pathlib.Path(self.path("render.py")).write_text(IN_BLENDER)
+        # Debian's Blender takes its Python from the PATH: another python3 there has no numpy.
+        subprocess.run(["blender", "-b", "--factory-startup", "--python-exit-code", "3", "--python", self.path("render.py"),
+                        "--", self.path("blender.exr")], check=True, stdout=subprocess.DEVNULL, timeout=200,
+                       env={**os.environ, "PATH": "/usr/bin:/bin"})
+        self.assertIn("focal length    85 mm  (Blender Lens)", self.succeed("inspect", "blender.exr").out)
+
     def test_each_renderers_file_gives_its_camera(self):
         for renderer, (attributes, flags, *camera) in FILES.items():
             with self.subTest(renderer):
