@@ -179,17 +179,17 @@ class Cameras(InBlender):
 
 
 class Animations(InBlender):
-    def test_each_frame_is_written_and_existing_ones_can_stay(self):
-        self.scene.frame_start, self.scene.frame_end, self.scene.frame_step = 1, 5, 2
+    def test_24_frames_are_written_and_existing_ones_can_stay(self):
+        self.scene.frame_start, self.scene.frame_end, self.scene.frame_step = 1, 47, 2
         dof = self.scene.camera.data.dof
-        for frame, distance in ((1, 1.5), (5, 12)):
+        for frame, distance in ((1, 1.5), (47, 12)):
             dof.focus_distance = distance
             dof.keyframe_insert("focus_distance", frame=frame)
         self.assertEqual(bpy.ops.petzval_lens.animation(), {"FINISHED"})
-        names = [f"out_{frame:04}.png" for frame in (1, 3, 5)]
+        names = [f"out_{frame:04}.png" for frame in range(1, 48, 2)]
         self.assertEqual(sorted(os.listdir(self.folder)), names)
         contents = [pathlib.Path(self.path(name)).read_bytes() for name in names]
-        self.assertEqual(len(set(contents)), 3)
+        self.assertEqual(len(set(contents)), 24)
         pathlib.Path(self.path(names[1])).write_bytes(b"mine")
         self.scene.render.use_overwrite = False
         bpy.ops.petzval_lens.animation()
