@@ -141,7 +141,7 @@ class Picture(Page):
         giant = bytearray(whole)
         at = whole.index(b"dataWindow\0box2i\0") + 17 + 4
         giant[at:at + 16] = struct.pack("<4i", 0, 0, 99999, 99999)
-        for name, kind, data, told in (("cut.exr", "", whole[:len(whole) // 2], "damaged"), ("empty.exr", "", b"", "no EXR"), ("junk.exr", "", bytes(range(256)) * 20, "no EXR"),
+        for name, kind, data, told in (("cut.exr", "", whole[:len(whole) // 2], "damaged"), ("empty.exr", "", b"", "not an EXR"), ("junk.exr", "", bytes(range(256)) * 20, "not an EXR"),
                                        ("giant.exr", "", bytes(giant), "million pixels"), ("flat.exr", "", exr_bytes(picture(16, 16, depth=None)), "no depth"),
                                        ("piz.exr", "", whole.replace(b"compression\0compression\0\1\0\0\0\0", b"compression\0compression\0\1\0\0\0\4"), "PIZ"),
                                        ("alone.jpg", "image/jpeg", b"\xff\xd8\xff", "no depth")):
