@@ -31,7 +31,15 @@ Ray Beam::launch(Point at) const {
 }
 
 std::optional<Beam::AtStop> Beam::stop_from_launch(Point at) const {
-    TracedRay traced = trace(*lens_, launch(at), 0, lens_->stop);
+    return on_stop(trace(*lens_, launch(at), 0, lens_->stop));
+}
+
+std::array<std::optional<Beam::AtStop>, 2> Beam::stop_from_two(Point a, Point b) const {
+    const auto traced = trace_two(*lens_, {launch(a), launch(b)}, 0, lens_->stop);
+    return {on_stop(traced[0]), on_stop(traced[1])};
+}
+
+std::optional<Beam::AtStop> Beam::on_stop(TracedRay traced) const {
     if (traced.fate != RayFate::Passed) return std::nullopt;
     const auto stop = std::size_t(lens_->stop);
     if (stop > 0) traced.ray.position.z -= lens_->surfaces[stop - 1].thickness_mm;
@@ -106,7 +114,7 @@ std::optional<Beam::Aimed> Beam::aim_carefully(Point stop, Point start) const {
         const Point miss{here->x - stop.x, here->y - stop.y};
         const double missed = std::hypot(miss.x, miss.y);
         if (missed < kAimed) return Aimed{at, here->before};
-        const auto right = stop_from_launch({at.x + dx, at.y}), up = stop_from_launch({at.x, at.y + dy});
+        const auto [right, up] = stop_from_two({at.x + dx, at.y}, {at.x, at.y + dy});
         if (!right || !up) return std::nullopt;
         const double xx = (right->x - here->x) / dx, yx = (right->y - here->y) / dx;
         const double xy = (up->x - here->x) / dy, yy = (up->y - here->y) / dy;

@@ -83,6 +83,8 @@ private:
     void point_at(double field_rad);
     Ray launch(Point at) const;
     std::optional<AtStop> stop_from_launch(Point at) const;
+    std::array<std::optional<AtStop>, 2> stop_from_two(Point a, Point b) const;
+    std::optional<AtStop> on_stop(TracedRay traced) const;  // of a ray in front of the stop
     bool find_chief();
     std::optional<double> solve_chief(double guess) const;
     bool measure_scale();

@@ -146,32 +146,52 @@ std::optional<Vec3> intersect(const RefractingSurface& surface, const Ray& ray) 
     return refine_on_asphere(surface, ray, at_plane(ray, 0));
 }
 
+namespace {
+
+// Takes a ray through surface i, in whose frame it stands. False where it ends.
+bool pass(const LensAtWavelength& lens, int i, TracedRay& traced) noexcept {
+    const RefractingSurface& surface = lens.surfaces[std::size_t(i)];
+    traced.surface = i;
+    const std::optional<Vec3> hit = intersect(surface, traced.ray);
+    if (!hit) {
+        traced.fate = RayFate::Missed;
+        return false;
+    }
+    traced.ray.position = *hit;
+    if (i != lens.stop) traced.clearance = std::max(traced.clearance, radius(*hit) / surface.clear_radius_mm);
+
+    if (surface.index_before == surface.index_after) return true;
+    const auto bent =
+        refract(traced.ray.direction, normal_at(surface, *hit), surface.index_before / surface.index_after);
+    if (!bent) {
+        traced.fate = RayFate::TotalReflection;
+        return false;
+    }
+    traced.ray.direction = *bent;
+    return true;
+}
+
+}  // namespace
+
 TracedRay trace(const LensAtWavelength& lens, Ray ray, int first, int end) noexcept {
     TracedRay result{ray};
     for (int i = first; i < end; ++i) {
-        const RefractingSurface& surface = lens.surfaces[std::size_t(i)];
         if (i > first) result.ray.position.z -= lens.surfaces[std::size_t(i) - 1].thickness_mm;
-        result.surface = i;
-
-        const std::optional<Vec3> hit = intersect(surface, result.ray);
-        if (!hit) {
-            result.fate = RayFate::Missed;
-            return result;
-        }
-        result.ray.position = *hit;
-        if (i != lens.stop)
-            result.clearance = std::max(result.clearance, radius(*hit) / surface.clear_radius_mm);
-
-        if (surface.index_before == surface.index_after) continue;
-        const auto bent = refract(result.ray.direction, normal_at(surface, *hit),
-                                  surface.index_before / surface.index_after);
-        if (!bent) {
-            result.fate = RayFate::TotalReflection;
-            return result;
-        }
-        result.ray.direction = *bent;
+        if (!pass(lens, i, result)) break;
     }
     return result;
+}
+
+std::array<TracedRay, 2> trace_two(const LensAtWavelength& lens, const std::array<Ray, 2>& rays, int first,
+                                   int end) noexcept {
+    std::array<TracedRay, 2> results{TracedRay{rays[0]}, TracedRay{rays[1]}};
+    for (int i = first; i < end; ++i)
+        for (TracedRay& result : results) {
+            if (result.fate != RayFate::Passed) continue;
+            if (i > first) result.ray.position.z -= lens.surfaces[std::size_t(i) - 1].thickness_mm;
+            pass(lens, i, result);
+        }
+    return results;
 }
 
 }  // namespace petzval::optics

@@ -118,5 +118,26 @@ TEST(RayTrace, ClearanceTellsHowFarOutsideARimTheRayWas) {
     EXPECT_NEAR(trace(at_wavelength(lens, kLineD_um), slanted(12, 0, 0)).clearance, 1.2, 1e-12);
 }
 
+TEST(RayTrace, TwoRaysAtOnceHaveTheBitsOfEach) {
+    Prescription lens = double_gauss();
+    lens.surfaces[3].asphere = {{4, 1e-5}};
+    const auto traced = at_wavelength(lens, kLineD_um);
+    // The second one misses a surface in the middle of the lens.
+    const std::array<Ray, 2> rays{slanted(3, 2.5, 0.12), slanted(30, 0, 0.9)};
+    const auto both = trace_two(traced, rays, 0, traced.count());
+    EXPECT_EQ(both[0].fate, RayFate::Passed);
+    EXPECT_NE(both[1].fate, RayFate::Passed);
+    for (std::size_t k = 0; k < 2; ++k) {
+        const TracedRay one = trace(traced, rays[k]);
+        EXPECT_EQ(one.ray.position.x, both[k].ray.position.x);
+        EXPECT_EQ(one.ray.position.y, both[k].ray.position.y);
+        EXPECT_EQ(one.ray.direction.x, both[k].ray.direction.x);
+        EXPECT_EQ(one.ray.direction.y, both[k].ray.direction.y);
+        EXPECT_EQ(one.fate, both[k].fate);
+        EXPECT_EQ(one.surface, both[k].surface);
+        EXPECT_EQ(one.clearance, both[k].clearance);
+    }
+}
+
 }  // namespace
 }  // namespace petzval::optics
