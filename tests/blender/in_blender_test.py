@@ -116,6 +116,16 @@ class Stills(InBlender):
         self.scene.petzval_lens.lens = "doublet"
         self.assertGreater(float(np.abs(self.still() - ideal).max()), 0.05)
 
+    def test_a_preset_is_its_look(self):
+        ideal, choices = self.still(), self.scene.petzval_lens
+        choices.preset = "achromat"
+        by_name = self.still()
+        self.assertGreater(float(np.abs(by_name - ideal).max()), 0.05)
+        look = installed.part("library").petzval.Look.preset("achromat")
+        pathlib.Path(self.path("look.json")).write_text(look.to_json())
+        choices.preset, choices.look_file = "", self.path("look.json")
+        np.testing.assert_array_equal(by_name, self.still())
+
     def test_the_lens_again_has_the_bits_of_a_new_render(self):
         self.still()
         dof = self.scene.camera.data.dof
