@@ -70,6 +70,8 @@ PETZVAL_C_API petzval_status petzval_pass_resize(petzval_pass* pass, uint32_t wi
 PETZVAL_C_API void petzval_pass_close(petzval_pass* pass);
 
 /* Makes the shapes of the look's lens on this camera: milliseconds, for lenses with surfaces up to seconds.
+ * A lens whose discs change over the frame, as a cat's eye does, has 45 shapes: 45 times as long, and 96 MB
+ * of the device's memory instead of 2, as much again where the host writes until the frame after has begun.
  * From any thread, beside petzval_pass_record(): frames have the lens before until it is done. The look's
  * quality sets the taps of a disc: draft 24, standard 48, final 127. All else of a look is not used. */
 PETZVAL_C_API petzval_status petzval_pass_set_lens(petzval_pass* pass, const petzval_look* look,

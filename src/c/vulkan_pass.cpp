@@ -75,7 +75,7 @@ petzval_status set_lens(petzval_pass& pass, const Lens& lens, const Camera& came
     const RealtimeSettings& settings = pass.host->settings();
     const auto mounted = kernel::make_lens(lens, {camera, int(settings.width), int(settings.height)});
     if (!mounted) return fail(mounted.error());
-    pass.host->set_lens(**mounted, quality);
+    if (const Status done = pass.host->set_lens(**mounted, quality); !done) return fail(done.error());
     pass.lens = lens, pass.camera = camera, pass.quality = quality;
     return PETZVAL_OK;
 }
@@ -123,8 +123,15 @@ petzval_status record(HostPass& host, const petzval_pass_frame& f) {
     if (!(f.exposure >= 0 && f.exposure <= 1e6))
         return fail(PETZVAL_INVALID_ARGUMENT, "frame.exposure must be 0 to 1e6");
     const float exposure = f.exposure == 0 ? 1.0f : float(f.exposure);
-    const RealtimeImages images{input_of(f.colour), input_of(f.depth), input_of(f.layer), f.result, f.width,
-                                f.height,           exposure};
+    const std::uint32_t height = is_part ? f.height : opened.height;
+    const RealtimeImages images{input_of(f.colour),
+                                input_of(f.depth),
+                                input_of(f.layer),
+                                f.result,
+                                f.width,
+                                f.height,
+                                exposure,
+                                device::vulkan::RealtimeField::whole(width, height)};
     host.pass().record(f.commands, f.slot, images, *optics);
     return PETZVAL_OK;
 }

@@ -1,6 +1,7 @@
 // Laws of the pass for real time, on every device that can draw it: what it may not do however large a radius
 // is, however depth jitters, however little a camera moves.
 #include "petzval/devices.h"
+#include "petzval/lens_kernel.h"
 #include "petzval/session.h"
 
 #include "shots.h"
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -284,6 +286,43 @@ TEST_F(Realtime, ALampIsSteadyUnderACameraThatMovesByATenthOfAPixel) {
             before = std::move(after);
         }
     }
+}
+
+// Lamps over the field, behind focus and in front of it: each has the kernel of its own place. Three of them
+// are near nodes of the zones; the one at (60, 60) is between four.
+TEST_F(Realtime, ALampHasTheKernelOfItsPlaceInTheField) {
+    constexpr int kWidth = 320, kHeight = 180;
+    Shot shot = flat(kWidth, kHeight, {}, 0);
+    DefocusJob job = shot.job("realtime");
+    job.camera = {50, 36, 4, 2};
+    const LensMount mount{job.camera, kWidth, kHeight, 1};
+    struct {
+        double cats_eye;
+        const char* lens;
+        double most_at_node, most_between;
+    } const kinds[] = {{0.8, "ideal", 0.1, 0.1}, {0, "petzval-portrait", 0.2, 0.6}};
+    for (const auto& kind : kinds)
+        for (const float coc_px : {16.0f, -16.0f})
+            for (const auto [x, y] : {std::pair{40, 40}, {280, 140}, {60, 60}, {160, 90}}) {
+                job.lens.cats_eye = kind.cats_eye, job.lens.name = kind.lens;
+                shot = flat(kWidth, kHeight, {}, coc_px);
+                shot.colour(x, y) = {1000, 1000, 1000, 1};
+                const FieldPosition field = job.place.field().field_at(x, y);
+                const auto disc = lens_point_spread(job.lens, mount, double(coc_px), field.x, field.y, 79);
+                ASSERT_TRUE(disc) << disc.error().message;
+                for (Session& session : sessions_) {
+                    job.colour = shot.colour, job.coc_px = shot.coc_px;
+                    const auto made = session.defocus(job);
+                    ASSERT_TRUE(made) << made.error().message;
+                    double apart = 0;
+                    for (int v = 0; v < 79; ++v)
+                        for (int u = 0; u < 79; ++u)
+                            apart += std::abs(double(made->image(x + u - 39, y + v - 39).g) / 1000 -
+                                              double(disc->weights(u, v).g));
+                    EXPECT_LT(apart, x == 60 ? kind.most_between : kind.most_at_node)
+                        << kind.lens << " " << coc_px << " at " << x << ", " << y;
+                }
+            }
 }
 
 // A lamp behind a bar in focus, and behind one that is half as blurred: its light falls beside them alone.

@@ -33,7 +33,7 @@ async function draw({ width, height, mostPx, programs, lens, colour, radii }) {
   const whole = (made) => made.createView({ dimension: "2d-array" });
   const level = (baseMipLevel) => cells.createView({ dimension: "2d-array", baseMipLevel, mipLevelCount: 1 });
   const surroundings = buffer(8 * tiles), [radiiOfTiles, reach, lamps, boxes, kept] = [0, 1, 2, 3, 4].map(() => buffer(16 * tiles));
-  const push = new ArrayBuffer(48);
+  const push = new ArrayBuffer(64);
   new Int32Array(push, 0, 4).set([width, height, across, down]);
   new Float32Array(push, 16, 4).set([0, 1, mostPx, 1]);  // depth is the radius
   new Float32Array(push, 36, 1).set([1]);
@@ -48,7 +48,7 @@ async function draw({ width, height, mostPx, programs, lens, colour, radii }) {
     combine_32: { 0: colours.createView(), 1: whole(cells), 2: colours.createView(), 3: whole(gathered), 4: result.createView(),
                   5: shapes, 6: of(kept), 7: of(boxes), 8: of(reach) },
   };
-  const constants = of(buffer(48, push, GPUBufferUsage.UNIFORM));
+  const constants = of(buffer(64, push, GPUBufferUsage.UNIFORM));
   const groups = { measure: [across, down], split: [across, down], reach: [Math.ceil(tiles / 64), 1], gather: [across, down],
                    combine_32: [Math.ceil(width / 8), Math.ceil(height / 8)] };
   const commands = device.createCommandEncoder();

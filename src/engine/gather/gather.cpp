@@ -125,7 +125,7 @@ private:
 // The lens of a frame, kept for those whose largest radii are the same to a pixel.
 struct KeptRealtimeLens final : device::Memory::Thing {
     explicit KeptRealtimeLens(RealtimeLens made) : lens(std::move(made)) {}
-    std::size_t bytes() const override { return RealtimeLens::kBytes; }
+    std::size_t bytes() const override { return lens.bytes(); }
     RealtimeLens lens;
 };
 
@@ -137,8 +137,10 @@ std::shared_ptr<const RealtimeLens> kept_realtime_lens(const EngineView& input) 
         "realtime " + std::to_string(int(near_px)) + " " + std::to_string(int(far_px)) + " " +
             std::to_string(taps),
         [&] {
+            const RealtimeZones zones = realtime_zones(input.lens.level(0), input.lens.frame.width(),
+                                                       input.lens.frame.height() / input.lens.pixel_aspect);
             return std::make_shared<KeptRealtimeLens>(
-                realtime_lens(input.lens.level(0), kernel::FieldPosition{}, near_px, far_px, taps));
+                realtime_lens(input.lens.level(0), zones, near_px, far_px, taps));
         });
     return {kept, &kept->lens};
 }
@@ -158,17 +160,18 @@ Result<Output> run_realtime(const EngineView& input, Spare) {
     if (const Status fits = fits_memory(input, kBytesPerPixel, "realtime"); !fits) return fits.error();
     Output output;
     output.canvas = input.services.device->canvas(Picture::uninitialised(input.width(), input.height()));
-    const RealtimePlan plan{input.samples.colour, input.samples.coc_px,
+    const RealtimePlan plan{input.samples.colour,
+                            input.samples.coc_px,
                             std::max(-input.samples.nearest_coc_px, input.samples.farthest_coc_px),
-                            float(input.lens.pixel_aspect), kept_realtime_lens(input)};
+                            float(input.lens.pixel_aspect),
+                            kept_realtime_lens(input),
+                            input.lens.frame};
     if (!input.services.progress->cancelled())
         input.services.device->draw_realtime(plan, *output.canvas,
                                              {*input.services.workers, *input.services.progress});
     if (!input.services.progress->advance(1)) return Error{ErrorCode::Cancelled, "cancelled"};
     output.stages = {
         {"realtime", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()}};
-    if (input.lens.level(0).varies_over_field())
-        output.warnings.emplace_back("job.engine realtime uses the lens of the frame's centre everywhere");
     return output;
 }
 

@@ -14,9 +14,10 @@ constexpr float kHalf = float(LampKernels::kHalf);  // half its side, in radii
 // A spiral whose turns are as far apart as its taps: each tap stands for as much of the disc, and none have
 // the same radius. The four sets are its turns by a quarter, so together they have four arms and an even rim.
 // Cells are read a little finer than taps are apart, because their means would soften the disc's rim.
-void add_taps(int taps, std::vector<Rgba>& fours) {
+void add_taps(int taps, const RealtimeZones& zones, std::vector<Rgba>& fours) {
     constexpr double kFiner = 0.75;
-    fours.push_back({float(taps), float(kFiner * std::sqrt(std::numbers::pi / taps)), 0, 0});
+    fours.push_back({float(taps), float(kFiner * std::sqrt(std::numbers::pi / taps)), float(zones.columns),
+                     float(zones.rows)});
     for (int set = 0; set < RealtimeLens::kSets; ++set)
         for (int i = 0; i < RealtimeLens::kMostTaps; ++i) {
             const double area = i == 0 || i >= taps ? 0 : i + 0.5;  // the first is for tiny discs
@@ -105,15 +106,44 @@ void add_weights(const std::vector<Rgba>& shape, std::vector<Rgba>& fours) {
             const auto at = [&](std::size_t i) -> Rgba& {
                 return fours[begins + i * kShares + std::size_t(k)];
             };
-            float sum = 0;
-            for (std::size_t i = 0; i < taps; ++i)
-                sum += (at(i) = weight_of(shape, fours[first + i], share)).a;
-            for (std::size_t i = 0; i < taps; ++i) at(i) = 1 / std::max(sum, kLeast) * at(i);
+            Rgba sum;
+            for (std::size_t i = 0; i < taps; ++i) sum += at(i) = weight_of(shape, fours[first + i], share);
+            for (std::size_t i = 0; i < taps; ++i) {
+                Rgba& w = at(i);
+                w = {w.r / std::max(sum.r, kLeast), w.g / std::max(sum.g, kLeast),
+                     w.b / std::max(sum.b, kLeast), w.a / std::max(sum.a, kLeast)};
+            }
         }
     }
 }
 
+void add_zone(const kernel::LensModel& lens, kernel::FieldPosition field, double near_px, double far_px,
+              std::vector<Rgba>& fours) {
+    const PointSpread near_spread = lens.point_spread(-near_px, field),
+                      far_spread = lens.point_spread(far_px, field);
+    add_weights(shape_of(near_spread, near_px), fours);
+    add_weights(shape_of(far_spread, far_px), fours);
+    const std::size_t lamps = fours.size();
+    fours.resize(lamps + 2 * std::size_t(LampKernels::kSteps));
+    add_lamp_kernels(near_spread, near_px, lamps, fours);
+    add_lamp_kernels(far_spread, far_px, lamps + LampKernels::kSteps, fours);
+}
+
 }  // namespace
+
+kernel::FieldPosition RealtimeZones::at(std::uint32_t zone) const {
+    const auto place = [](std::uint32_t node, std::uint32_t count) {
+        return count == 1 ? 0.0 : 2.0 * node / (count - 1) - 1;
+    };
+    return {half_width * place(zone % columns, columns), -half_height * place(zone / columns, rows)};
+}
+
+RealtimeZones realtime_zones(const kernel::LensModel& lens, double width, double height) {
+    if (!lens.varies_over_field()) return {};
+    const double diagonal = std::hypot(width, height);
+    const bool is_wide = width >= height;
+    return {is_wide ? 9u : 5u, is_wide ? 5u : 9u, width / diagonal, height / diagonal};
+}
 
 int realtime_taps(Quality quality) {
     switch (quality) {
@@ -126,24 +156,18 @@ int realtime_taps(Quality quality) {
     }
 }
 
-RealtimeLens realtime_lens(const kernel::LensModel& lens, kernel::FieldPosition field, double near_radius_px,
+RealtimeLens realtime_lens(const kernel::LensModel& lens, const RealtimeZones& zones, double near_radius_px,
                            double far_radius_px, int taps) {
     // Large enough to show the shape, no larger than can be made in a moment.
     constexpr double kLeastPx = 16, kMostPx = 64;
     RealtimeLens made;
     std::vector<Rgba>& fours = made.fours;
-    fours.reserve(RealtimeLens::kFours);
-    add_taps(taps, fours);
+    fours.reserve(RealtimeLens::kWeights + zones.count() * RealtimeLens::kOfZone);
+    add_taps(taps, zones, fours);
     const double near_px = std::clamp(near_radius_px, kLeastPx, kMostPx),
                  far_px = std::clamp(far_radius_px, kLeastPx, kMostPx);
-    const PointSpread near_spread = lens.point_spread(-near_px, field),
-                      far_spread = lens.point_spread(far_px, field);
-    add_weights(shape_of(near_spread, near_px), fours);
-    add_weights(shape_of(far_spread, far_px), fours);
-    const std::size_t lamps = fours.size();
-    fours.resize(lamps + 2 * std::size_t(LampKernels::kSteps));
-    add_lamp_kernels(near_spread, near_px, lamps, fours);
-    add_lamp_kernels(far_spread, far_px, lamps + LampKernels::kSteps, fours);
+    for (std::uint32_t zone = 0; zone < zones.count(); ++zone)
+        add_zone(lens, zones.at(zone), near_px, far_px, fours);
     return made;
 }
 

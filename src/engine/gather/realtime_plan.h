@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <numbers>
 #include <vector>
@@ -39,27 +40,39 @@ struct LampKernels {
     }
 };
 
+// Places of the field whose kernels a pass has: a grid over the frame, row by row from the top left, whose
+// outermost nodes lie on the frame's sides. Kernels between nodes are interpolated.
+struct RealtimeZones {
+    std::uint32_t columns = 1, rows = 1;
+    double half_width = 0, half_height = 0;  // of the frame, as FieldPosition counts
+
+    std::uint32_t count() const { return columns * rows; }
+    kernel::FieldPosition at(std::uint32_t zone) const;
+};
+// One zone where the lens is the same over the field, else 45. The size: of the frame, in widths of a pixel.
+RealtimeZones realtime_zones(const kernel::LensModel& lens, double width, double height);
+
 // Fours of floats, one after the other: number of taps, side of the squares that they read on a disc of
-// radius 1, 0, 0; taps over that disc (x, y, distance from the middle, weight near it), kSets of kMostTaps,
-// for the four cells of each square, because their taps together are as good as four times as many; weights
-// of taps for light blurred by a share of the disc's radius, kShares of them from 0 to 1 for each tap of
-// each set, in front of focus and then behind it: r, g, b and a, each of which sums to 1 over the taps. Then
-// LampKernels.
+// radius 1, columns and rows of zones; taps over that disc (x, y, distance from the middle, weight near it),
+// kSets of kMostTaps, for the four cells of each square, because their taps together are as good as four
+// times as many; then for each zone weights of taps for light blurred by a share of the disc's radius,
+// kShares of them from 0 to 1 for each tap of each set, in front of focus and then behind it: r, g, b and a,
+// each of which sums to 1 over the taps. Then LampKernels.
 struct RealtimeLens {
     static constexpr int kMostTaps = 127, kSets = 4, kShares = 64;
     static constexpr std::size_t kWeights =
         std::size_t(1) + std::size_t(kSets) * kMostTaps;  // where they begin
-    static constexpr std::size_t kFours = kWeights + 2 * std::size_t(kSets) * kMostTaps * kShares +
-                                          2 * (LampKernels::kSteps + LampKernels::weights());
-    static constexpr std::size_t kBytes = kFours * sizeof(Rgba);
-    std::vector<Rgba> fours;  // kFours
+    static constexpr std::size_t kOfZone =
+        2 * std::size_t(kSets) * kMostTaps * kShares + 2 * (LampKernels::kSteps + LampKernels::weights());
+    static_assert(kOfZone == 132824, "as shaders/realtime.glsl has it");
+    std::vector<Rgba> fours;  // kWeights, and kOfZone for each zone
+    std::size_t bytes() const { return fours.size() * sizeof(Rgba); }
 };
 
 // Number of taps of a quality: 24, 48 or 127.
 int realtime_taps(Quality quality);
-// The shapes that a lens has at these radii, in pixels, in one place of the field. Requires: 1 to kMostTaps
-// taps.
-RealtimeLens realtime_lens(const kernel::LensModel& lens, kernel::FieldPosition field, double near_radius_px,
+// The shapes that a lens has at these radii, in pixels, in each zone. Requires: 1 to kMostTaps taps.
+RealtimeLens realtime_lens(const kernel::LensModel& lens, const RealtimeZones& zones, double near_radius_px,
                            double far_radius_px, int taps);
 
 struct RealtimePlan {
@@ -68,6 +81,7 @@ struct RealtimePlan {
     float most_px = 0;  // no radius is larger
     float pixel_aspect = 1;
     std::shared_ptr<const RealtimeLens> lens;
+    Rect frame = {};  // that its zones span, in pixels of the picture; empty: the picture
 };
 
 }  // namespace petzval::engine

@@ -9,10 +9,22 @@
 namespace petzval::device::vulkan {
 namespace {
 
-std::shared_ptr<const engine::RealtimeLens> shapes_of(const kernel::LensModel& lens, Quality quality) {
+std::shared_ptr<const engine::RealtimeLens> shapes_of(const kernel::LensModel& lens, std::uint32_t width,
+                                                      std::uint32_t height, Quality quality) {
     constexpr double kRadiusPx = 45;  // shapes are those of discs this large: the largest that lamps have
     return std::make_shared<const engine::RealtimeLens>(
-        engine::realtime_lens(lens, {}, kRadiusPx, kRadiusPx, engine::realtime_taps(quality)));
+        engine::realtime_lens(lens, engine::realtime_zones(lens, width, height), kRadiusPx, kRadiusPx,
+                              engine::realtime_taps(quality)));
+}
+
+Status loaded(RealtimePass& pass, const RealtimeSettings& settings, const kernel::LensModel& lens,
+              Quality quality) {
+    try {
+        pass.set_lens(shapes_of(lens, settings.width, settings.height, quality));
+    } catch (const Failed& failed) {
+        return failed.error;
+    }
+    return Done{};
 }
 
 }  // namespace
@@ -79,7 +91,7 @@ Status HostPass::resize(std::uint32_t width, std::uint32_t height, const kernel:
     settings.width = width, settings.height = height;
     auto pass = made(settings);
     if (!pass) return pass.error();
-    (*pass)->set_lens(shapes_of(lens, quality));
+    if (const Status ok = loaded(**pass, settings, lens, quality); !ok) return ok;
     pass_ = std::move(*pass), settings_ = settings;
     return Done{};
 }
@@ -98,8 +110,8 @@ Result<std::array<double, RealtimePass::kSteps>> HostPass::times_ms(std::uint32_
     return times;
 }
 
-void HostPass::set_lens(const kernel::LensModel& lens, Quality quality) {
-    pass_->set_lens(shapes_of(lens, quality));
+Status HostPass::set_lens(const kernel::LensModel& lens, Quality quality) {
+    return loaded(*pass_, settings_, lens, quality);
 }
 
 }  // namespace petzval::device::vulkan

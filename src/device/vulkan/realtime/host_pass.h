@@ -36,8 +36,8 @@ public:
     static Result<std::unique_ptr<HostPass>> open(const Host& host, const RealtimeSettings& settings);
     // With the lens that is mounted on that size. If it fails, nothing changed. Errors: as above.
     Status resize(std::uint32_t width, std::uint32_t height, const kernel::LensModel& lens, Quality quality);
-    // Sets the lens, from any thread; may run beside pass().record(), not beside resize().
-    void set_lens(const kernel::LensModel& lens, Quality quality);
+    // Sets the lens, from any thread; may run beside pass().record(), not beside resize(). Errors: as above.
+    Status set_lens(const kernel::LensModel& lens, Quality quality);
     RealtimePass& pass() { return *pass_; }
     // Milliseconds of each step of the slot's last frame. Errors: InvalidArgument where it has not run.
     Result<std::array<double, RealtimePass::kSteps>> times_ms(std::uint32_t slot) const;

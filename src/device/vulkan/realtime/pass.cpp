@@ -97,7 +97,6 @@ void RealtimePass::make() {
     reach_ = heap_.allocate(Kind::OnDevice, tiles * 4 * sizeof(float));
     boxes_ = heap_.allocate(Kind::OnDevice, tiles * 4 * sizeof(std::int32_t));
     kept_ = heap_.allocate(Kind::OnDevice, tiles * 4 * sizeof(std::uint32_t));
-    lens_ = heap_.allocate(Kind::OnDevice, engine::RealtimeLens::kBytes);
     make_sampler(VK_FILTER_NEAREST, nearest_);
     make_sampler(VK_FILTER_LINEAR, linear_);
     if (!programs_) programs_ = std::make_shared<const RealtimePrograms>(opened_, settings_);
@@ -138,7 +137,6 @@ void RealtimePass::make_sets() {
     for (Slot& slot : slots_) {
         check(vk_.vkAllocateDescriptorSets(opened_.device, &info, slot.sets.data()), opened_.name,
               "descriptors");
-        slot.lens = heap_.allocate(Kind::ToDevice, engine::RealtimeLens::kBytes);
         write_own(slot);
     }
 }
@@ -210,12 +208,10 @@ void RealtimePass::write_own(const Slot& slot) const {
     write_buffer(slot.sets[kReach], 4, kept_);
     write_image(slot.sets[kReach], 5, kStored, {VK_NULL_HANDLE, cells_.level(0), kLayout});
     write_image(slot.sets[kGather], 0, kSampled, {linear_, cells_.view(), kLayout});
-    write_buffer(slot.sets[kGather], 1, lens_);
     write_buffer(slot.sets[kGather], 2, reach_);
     write_image(slot.sets[kGather], 3, kStored, {VK_NULL_HANDLE, gathered_.view(), kLayout});
     write_image(slot.sets[kCombine], 3, kSampled, {linear_, gathered_.view(), kLayout});
     write_image(slot.sets[kCombine], 1, kSampled, {linear_, cells_.view(), kLayout});
-    write_buffer(slot.sets[kCombine], 5, lens_);
     write_buffer(slot.sets[kCombine], 6, kept_);
     write_buffer(slot.sets[kCombine], 7, boxes_);
     write_buffer(slot.sets[kCombine], 8, reach_);
@@ -235,8 +231,22 @@ void RealtimePass::write_given(const Slot& slot, const RealtimeImages& images) c
 }
 
 void RealtimePass::set_lens(std::shared_ptr<const engine::RealtimeLens> lens) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (chosen_ && chosen_->lens == lens) return;
+    }
+    const auto loaded = std::make_shared<Loaded>();
+    loaded->written = heap_.allocate(Kind::ToDevice, lens->bytes());
+    loaded->on_device = heap_.allocate(Kind::OnDevice, lens->bytes());
+    std::memcpy(loaded->written.mapped(), lens->fours.data(), lens->bytes());
+    loaded->lens = std::move(lens);
     const std::lock_guard lock(mutex_);
-    chosen_ = std::move(lens);
+    chosen_ = loaded;
+}
+
+void RealtimePass::write_lens(const Slot& slot) const {
+    write_buffer(slot.sets[kGather], 1, slot.lens->on_device);
+    write_buffer(slot.sets[kCombine], 5, slot.lens->on_device);
 }
 
 // Bytes of its images and buffers, each once. Cached reads (the lens's shapes) and buffers that only lamps
@@ -276,18 +286,21 @@ void RealtimePass::order(VkCommandBuffer commands, VkPipelineStageFlags from, Vk
 // After all of the frame before: its images are ours again, and the lens is written if it changed.
 void RealtimePass::take_lens(VkCommandBuffer commands, Slot& slot) {
     constexpr VkPipelineStageFlags kCompute = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
-    std::shared_ptr<const engine::RealtimeLens> chosen;
     {
         const std::lock_guard lock(mutex_);
-        chosen = chosen_;
+        slot.lens = chosen_;
     }
-    if (on_device_ != chosen) {
-        std::memcpy(slot.lens.mapped(), chosen->fours.data(), engine::RealtimeLens::kBytes);
+    Loaded& loaded = *slot.lens;
+    if (loaded.copied_in == &slot) {
+        loaded.written = {};
+        heap_.trim();
+    } else if (!loaded.copied_in) {
         order(commands, kCompute, 0, VK_PIPELINE_STAGE_TRANSFER_BIT);
-        const VkBufferCopy copy = {slot.lens.offset(), lens_.offset(), engine::RealtimeLens::kBytes};
-        vk_.vkCmdCopyBuffer(commands, slot.lens.buffer(), lens_.buffer(), 1, &copy);
-        on_device_ = std::move(chosen);
+        const VkBufferCopy copy = {loaded.written.offset(), loaded.on_device.offset(), loaded.lens->bytes()};
+        vk_.vkCmdCopyBuffer(commands, loaded.written.buffer(), loaded.on_device.buffer(), 1, &copy);
+        loaded.copied_in = &slot;
     }
+    write_lens(slot);
     std::array<VkImageMemoryBarrier, 2> fresh = {};
     for (std::size_t i = 0; i < fresh.size(); ++i) {
         fresh[i].sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER;
@@ -314,7 +327,8 @@ void RealtimePass::begin(VkCommandBuffer commands, std::uint32_t slot, const Rea
                          std::int32_t(tiles_y()),
                          optics,
                          images.layer.view ? 1u : 0u,
-                         images.exposure};
+                         images.exposure,
+                         images.field};
 }
 
 // A frame smaller than the images has tiles around it that continue its border, as far as anything reads

@@ -30,6 +30,14 @@ struct RealtimeOptics {
     float add_px = 0, per_depth_px = 0, most_px = 0, aspect = 1;
 };
 
+// Share of the way from the first zone to the last at the point p of an image, in pixels: scale * p + add.
+struct RealtimeField {
+    float scale_x = 0, scale_y = 0, add_x = 0, add_y = 0;
+    static RealtimeField whole(std::uint32_t width, std::uint32_t height) {
+        return {1 / float(width), 1 / float(height), 0, 0};
+    }
+};
+
 struct RealtimeImages {
     struct Input {
         VkImageView view = VK_NULL_HANDLE;
@@ -40,6 +48,7 @@ struct RealtimeImages {
     // The part of them that is a frame, from the top left; 0: as large as the settings say.
     std::uint32_t width = 0, height = 0;
     float exposure = 1;  // estimates weigh light times this
+    RealtimeField field;
 };
 
 // The programs of a pass, which serve frames of any size. Throws Failed.
@@ -69,7 +78,7 @@ public:
     RealtimePass(const RealtimePass&) = delete;
     RealtimePass& operator=(const RealtimePass&) = delete;
 
-    // Sets the lens of later recordings. From any thread.
+    // Sets the lens of later recordings and takes memory for it. From any thread. Throws Failed.
     void set_lens(std::shared_ptr<const engine::RealtimeLens> lens);
     // Allocates nothing, waits for nothing. Requires: what was recorded into this slot before has run; all
     // that is recorded runs on one queue; the inputs are visible to reads of compute shaders, and the result
@@ -102,13 +111,21 @@ private:
         RealtimeOptics optics;
         std::uint32_t has_layer = 0;
         float exposure = 1;
+        RealtimeField field;
     };
-    static_assert(sizeof(Push) == 40, "as shaders/realtime.glsl has it");
+    static_assert(sizeof(Push) == 56, "as shaders/realtime.glsl has it");
+    struct Slot;
+    struct Loaded {
+        std::shared_ptr<const engine::RealtimeLens> lens;
+        Piece written;                    // by the host; empty once its copy has run
+        Piece on_device;                  // what programs read
+        const Slot* copied_in = nullptr;  // the slot whose recording copies it; null: none yet
+    };
     struct Slot {
         std::array<VkDescriptorSet, kSteps> sets = {};
         Push push;
-        Piece lens;             // written by the host
-        bool is_timed = false;  // its timestamps were recorded
+        std::shared_ptr<Loaded> lens;  // of its last frame
+        bool is_timed = false;         // its timestamps were recorded
     };
 
     // Groups of a frame of this size, where cells so many pixels outside of it are read.
@@ -125,6 +142,7 @@ private:
                      const VkDescriptorImageInfo& info) const;
     void write_buffer(VkDescriptorSet set, std::uint32_t binding, const Piece& piece) const;
     void take_lens(VkCommandBuffer commands, Slot& slot);
+    void write_lens(const Slot& slot) const;
     void bind(VkCommandBuffer commands, const Slot& slot, Step step, bool plant);
     std::uint64_t least_bytes(Step step) const;
     void order(VkCommandBuffer commands, VkPipelineStageFlags from, VkAccessFlags written,
@@ -136,15 +154,14 @@ private:
     const RealtimeSettings settings_;
     Heap heap_;
     DeviceImage cells_, gathered_;
-    Piece surroundings_, tiles_, lamps_, reach_, boxes_, kept_, lens_;
+    Piece surroundings_, tiles_, lamps_, reach_, boxes_, kept_;
     VkSampler nearest_ = VK_NULL_HANDLE, linear_ = VK_NULL_HANDLE;
     std::shared_ptr<const RealtimePrograms> programs_;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
     VkQueryPool queries_ = VK_NULL_HANDLE;  // kSteps + 1 a slot; null: not timed
     std::vector<Slot> slots_;
     std::mutex mutex_;  // of the next line
-    std::shared_ptr<const engine::RealtimeLens> chosen_;
-    std::shared_ptr<const engine::RealtimeLens> on_device_;  // of the last recording
+    std::shared_ptr<Loaded> chosen_;
 };
 
 }  // namespace petzval::device::vulkan

@@ -29,7 +29,7 @@ TEST(RealtimeLens, CountsOneOfAPlaneAtEveryRadius) {
     using engine::RealtimeLens;
     for (const int taps : {24, 48, RealtimeLens::kMostTaps}) {
         const RealtimeLens lens = *ideal_lens(taps);
-        ASSERT_EQ(lens.fours.size(), RealtimeLens::kFours);
+        ASSERT_EQ(lens.fours.size(), RealtimeLens::kWeights + RealtimeLens::kOfZone);
         EXPECT_EQ(lens.fours[0].r, float(taps));
         constexpr std::size_t kShares = RealtimeLens::kShares, kOfSet = RealtimeLens::kMostTaps * kShares;
         for (std::size_t set = 0; set < 2 * RealtimeLens::kSets; ++set)  // in front of focus, then behind it

@@ -121,6 +121,11 @@ private:
         RealtimeImages images;
         images.colour.view = colour_.view(), images.depth.view = radii_.view();
         images.result = result_.view();
+        const Rect frame =
+            plan.frame.empty() ? Rect{0, 0, plan.colour.width(), plan.colour.height()} : plan.frame;
+        images.field = RealtimeField::whole(std::uint32_t(frame.width()), std::uint32_t(frame.height()));
+        images.field.add_x = -float(frame.x0) * images.field.scale_x;
+        images.field.add_y = float(first - frame.y0) * images.field.scale_y;
         pass_.begin(recording.commands(), 0, images, optics);
         return sent;
     }

@@ -5,7 +5,13 @@ layout(push_constant) uniform Push {
     float most_px, aspect;       // radii are cut there; vertical ones are `aspect` times as large
     uint has_layer;
     float exposure;  // of the host's display
+    vec2 zone_scale, zone_add;  // share of the way from the first zone of the lens to the last: scale * pixel + add
 } at;
+
+// Fours of a lens: number of taps, their side, columns and rows of zones; taps; then those of each zone.
+const int kMostTaps = 127, kSets = 4, kShares = 64, kFirstZone = 1 + kSets * kMostTaps, kOfZone = 132824;
+// Place in the grid of zones, from its first node.
+vec2 zone_place(vec2 pixel, vec2 zones) { return clamp(at.zone_scale * pixel + at.zone_add, vec2(0), vec2(1)) * (zones - 1); }
 
 const float kMostLight = 60000;  // that cells hold
 const int kTile = 16;            // pixels

@@ -10,12 +10,12 @@ layout(std430, binding = 2) readonly buffer Reach { vec4 reach[]; };  // realtim
 layout(binding = 3, rgba16f) writeonly uniform image2DArray gathered;
 #include "realtime.glsl"
 
-const int kMostTaps = 127, kSets = 4, kShares = 64, kFirstWeight = 1 + kSets * kMostTaps, kNearSide = kFirstWeight,
-          kFarSide = kFirstWeight + kSets * kMostTaps * kShares;
+const int kFarSide = kSets * kMostTaps * kShares;  // from the first weight of a zone
 const float kLeastArea = 1e-4;
 const float kNearestPx = 8;  // where what is hidden is looked for first
 
 int first_tap, taps;  // of the cell's own set, from the first of all; their number
+int first_weight;     // of the cell's zone
 float tap_side;       // of the square that a tap reads on a disc of radius 1
 vec4 tap_of(int i) { return lens[1 + first_tap + i]; }
 // Weight of a tap for light blurred by a share of the disc's radius: the lens's shape, normalised so that a plane keeps
@@ -69,7 +69,7 @@ Sum back_over(vec2 middle, float radius, float own_px, int which) {
     const float per_radius = 1 / radius, per_own = 1 / own_px, least = 0.5 * per_radius;
     Sum sum = Sum(vec4(0), 0, 0, 0, 0);
     vec2 less_sum = vec2(0);
-    int first_of = kFarSide + first_tap * kShares;
+    int first_of = first_weight + kFarSide + first_tap * kShares;
     for (int i = 0; i < taps; ++i, first_of += kShares) {
         const vec2 tap = tap_of(i).xy;
         const vec4 there = read_cells(disc, tap, kBack);
@@ -167,7 +167,7 @@ NearSum near_over(vec2 middle, float radius, float most_px, bool is_less) {
     const float per_radius = 1 / radius, least = 0.5 * per_radius, per_most = 1 / most_px;
     NearSum sum = NearSum(vec4(0), vec2(0), 0);
     vec2 less_sum = vec2(0);
-    int first_of = kNearSide + first_tap * kShares;
+    int first_of = first_weight + first_tap * kShares;
     for (int i = 0; i < taps; ++i, first_of += kShares) {
         const vec4 tap_at = tap_of(i);
         const vec2 tap = tap_at.xy;
@@ -212,7 +212,12 @@ void main() {
     const vec2 middle = vec2(cell) + 0.5;
     const vec4 head = lens[0];
     taps = int(head.x), tap_side = head.y;
-    first_tap = kMostTaps * ((cell.x & 1) + 2 * (cell.y & 1));
+    const int set = (cell.x & 1) + 2 * (cell.y & 1);
+    first_tap = kMostTaps * set;
+    // Each set takes the nearest zone of another fraction, so that the mean of the four interpolates between zones.
+    const vec2 fraction = (vec2(set, (set & 1) * 2 + (set >> 1)) + 0.5) / float(kSets);
+    const ivec2 zone = ivec2(zone_place(2 * middle, head.zw) + fraction);
+    first_weight = kFirstZone + kOfZone * (zone.y * int(head.z) + zone.x);
     const vec4 own = texelFetch(cells, ivec3(cell, kBack), 0);
     const bool has = own.z > 0.02;
     float is_known = 1;

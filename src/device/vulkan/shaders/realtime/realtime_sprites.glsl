@@ -3,7 +3,7 @@ layout(std430, binding = 5) readonly buffer Lens { vec4 lens[]; };    // engine/
 layout(std430, binding = 6) readonly buffer Lamps { uvec4 lamps[]; };  // realtime_reach.comp: kept
 layout(std430, binding = 7) readonly buffer Boxes { ivec4 boxes[]; };  // realtime_reach.comp
 
-const int kLampSteps = 14, kFirstStep = 1 + 4 * 127 * (1 + 2 * 64);
+const int kLampSteps = 14, kFirstStep = kFirstZone + 2 * kSets * kMostTaps * kShares;
 const float kStepAt = 0.5;  // pixels: the radius of the first kernel; the next are sqrt(2) times as wide each
 
 // Lamps of one tile as a group reads them, by their cells.
@@ -12,7 +12,8 @@ struct Lamp {
     float radius;        // signed
     float cells_per_px;  // of its kernel
     vec3 light;          // times the size of a kernel's cell
-    int first, half_side;  // of its kernel; half_side < 0: it reaches no pixel of the group
+    int first, half_side;  // of its kernel in the zone above it and left of it; half_side < 0: it reaches no pixel of the group
+    vec2 zone_share;       // of the next column and row of zones
 };
 shared Lamp group_lamps[64];
 
@@ -22,15 +23,20 @@ Lamp lamp_of_cell(ivec2 cell) {
     // The nearest kernel keeps the light of small discs; the next larger one keeps the rims of large ones sharp.
     const float place_of = 2 * log2(radius / kStepAt);
     const int step_of = clamp(int(radius < 8 ? round(place_of) : ceil(place_of - 0.1)), 0, kLampSteps - 1);
-    const vec4 kept = lens[kFirstStep + step_of + (place.z < 0 ? 0 : kLampSteps)];
+    const vec2 from = vec2(2 * cell) + place.xy, zones = lens[0].zw, zone_at = zone_place(from, zones);
+    const ivec2 zone = ivec2(min(zone_at, max(zones - 2, vec2(0))));
+    const vec4 kept = lens[kFirstStep + kOfZone * (zone.y * int(zones.x) + zone.x) + step_of + (place.z < 0 ? 0 : kLampSteps)];
     const float cells_per_px = kept.z / radius;
-    const vec2 from = vec2(2 * cell) + place.xy, gap = abs(vec2(8 * ivec2(gl_WorkGroupID.xy) + 4) - from) - 3.5;
+    const vec2 gap = abs(vec2(8 * ivec2(gl_WorkGroupID.xy) + 4) - from) - 3.5;
     const bool reaches = max(gap.x, gap.y / at.aspect) * cells_per_px <= kept.y;
     const vec3 light = place.w * cells_per_px * cells_per_px / at.aspect * texelFetch(cells, ivec3(cell, kLampLight), 0).rgb;
-    return Lamp(from, place.z, cells_per_px, light, int(kept.x), reaches ? int(kept.y) : -1);
+    return Lamp(from, place.z, cells_per_px, light, int(kept.x), reaches ? int(kept.y) : -1, zone_at - vec2(zone));
 }
 
-// The share of its light that a lamp sends to an offset in pixels.
+vec4 cell_at(int first, int side, vec2 share) {
+    return mix(mix(lens[first], lens[first + 1], share.x), mix(lens[first + side], lens[first + side + 1], share.x), share.y);
+}
+// The share of its light that a lamp sends to an offset in pixels, interpolated between zones of the lens.
 vec4 kernel_at(int lamp, vec2 offset) {
     const int half_side = group_lamps[lamp].half_side, side = 2 * half_side + 1;
     const vec2 place = vec2(offset.x, offset.y / at.aspect) * group_lamps[lamp].cells_per_px + float(half_side);
@@ -38,7 +44,15 @@ vec4 kernel_at(int lamp, vec2 offset) {
     const ivec2 low = ivec2(place);
     const vec2 share = place - vec2(low);
     const int first = group_lamps[lamp].first + low.y * side + low.x;
-    return mix(mix(lens[first], lens[first + 1], share.x), mix(lens[first + side], lens[first + side + 1], share.x), share.y);
+    const vec2 zone_share = group_lamps[lamp].zone_share;
+    vec4 sum = (1 - zone_share.x) * (1 - zone_share.y) * cell_at(first, side, share);
+    if (zone_share.x > 0) sum += zone_share.x * (1 - zone_share.y) * cell_at(first + kOfZone, side, share);
+    if (zone_share.y > 0) {
+        const int below = first + kOfZone * int(lens[0].z);
+        sum += (1 - zone_share.x) * zone_share.y * cell_at(below, side, share);
+        if (zone_share.x > 0) sum += zone_share.x * zone_share.y * cell_at(below + kOfZone, side, share);
+    }
+    return sum;
 }
 
 // Visible share of a lamp behind focus from a pixel: on its way to (x, y) light has its radius at `from` and
