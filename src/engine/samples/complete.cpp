@@ -177,7 +177,7 @@ private:
         const auto behind = hidden_.at(x, y);
         if (m->shows_far || behind.empty()) emit(sample(m->far_colour, m->far_coc_px, 1));
         for (const Hidden& h : behind) emit(sample(h.colour, h.coc_px, h.share));
-        if (m->far_light != Rgba{}) emit({unhidden_light(*m), m->lamp_coc_px, m->lamp_coc_px});
+        if (m->far_light != Rgba{}) emit({m->far_light, m->lamp_coc_px, m->lamp_coc_px});
     }
 
     const EngineView& input_;

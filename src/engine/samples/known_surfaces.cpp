@@ -48,7 +48,7 @@ void KnownSurfaces::find_lights(Workers& workers) {
                     luminance(picture_.dim(x, y)) >= completion_model.light * white_)
                     lit(x / kBlock, row) = 1;
     });
-    const int blocks = int(completion_model.light_widest_px) / kBlock + 1;
+    const int blocks = int(completion_model.lit_widest_px) / kBlock + 1;
     lights_around_ = Image<unsigned char>(width, height);
     parallel_for(height, workers, [&](int y) {
         for (int v = std::max(0, y - blocks); v <= std::min(height - 1, y + blocks); ++v)
@@ -69,8 +69,8 @@ Rgba KnownSurfaces::going_on(Place from, Direction outwards, float distance_px) 
     const float falls = above(light, completion_model.light * white_);
     const Rgba dim = falls < 1 ? among_lights(own, from, outwards, distance_px) : own;
     if (falls <= 0) return dim;
-    const Mean of_light{completion_model.light_span};
-    return dim * (1 - falls) + falls * shown(from, outwards, distance_px, of_light, own);
+    constexpr float kAnyLight = std::numeric_limits<float>::infinity();
+    return dim * (1 - falls) + falls * shown(from, outwards, distance_px, kAnyLight, own);
 }
 
 // A dark pixel only a little darker than the sign around it is the gap between two letters: it does not end
@@ -80,7 +80,7 @@ Rgba KnownSurfaces::among_lights(Rgba own, Place from, Direction outwards, float
     const float least = completion_model.gap_lit * white_;
     const float usual = completion_model.gap_contrast * light_of(own);
     if (usual <= least || !lights_around(from)) return own;  // too dark to lie between letters
-    const Rgba all = shown(from, outwards, distance_px, {1, usual}, own);
+    const Rgba all = shown(from, outwards, distance_px, usual, own);
     const float lit = above(light_of(all), least);
     return own * (1 - lit) + lit * all;
 }
@@ -104,10 +104,10 @@ Rgba KnownSurfaces::seen_through_blur(Place at, Direction outwards, float distan
     return sum * (1 / total);
 }
 
-// The mean of the visible surface at r spans, with density 1/(1 + r)^2: a thing visible for a width w gets
-// the share w/(w + span). With a span proportional to the distance, this assumes that things of all widths
-// are equally common and cut anywhere. Pixels beyond a continuing edge do not count.
-Rgba KnownSurfaces::shown(Place from, Direction outwards, float distance_px, const Mean& mean,
+// The mean of the visible surface at r distances, with density 1/(1 + r)^2: a thing visible for a width w
+// gets the share w/(w + distance). This assumes that things of all widths are equally common and cut
+// anywhere. Pixels beyond a continuing edge do not count.
+Rgba KnownSurfaces::shown(Place from, Direction outwards, float distance_px, float usual,
                           Rgba otherwise) const {
     constexpr int kParts = 8;  // parts of equal probability
     Rgba sum;
@@ -115,12 +115,12 @@ Rgba KnownSurfaces::shown(Place from, Direction outwards, float distance_px, con
     const CutEdges::Point hidden = behind(from, outwards, distance_px);
     for (int part = 0; part < kParts; ++part) {
         const float nearer = (float(part) + 0.5f) / kParts;
-        const float far = mean.span * distance_px * nearer / (1 - nearer);
+        const float far = distance_px * nearer / (1 - nearer);
         const int x = from.x + nearest_pixel(far * outwards.x), y = from.y + nearest_pixel(far * outwards.y);
-        if (far > completion_model.light_widest_px || !radii_.rect().contains(x, y)) break;
+        if (far > completion_model.lit_widest_px || !radii_.rect().contains(x, y)) break;
         if (!one_surface(radii_(x, y), from.coc_px)) continue;
         const Rgba light = comparable(colour(x, y));
-        const float excess = light_of(light) / mean.usual, excess2 = excess * excess;
+        const float excess = light_of(light) / usual, excess2 = excess * excess;
         const float weight = edges_.passes({x, y}, hidden, from.coc_px) / (1 + excess2 * excess2);
         sum += weight * light;
         total += weight;

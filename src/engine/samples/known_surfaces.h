@@ -13,14 +13,14 @@ namespace petzval::engine {
 
 // The largest difference of radii between two pixels, some distance apart, that may show one surface.
 inline float surface_step_px(float coc_a_px, float coc_b_px) {
-    return completion_model.apart_px + completion_model.step_share * std::abs(coc_a_px + coc_b_px);
+    return completion_model.apart_px() + completion_model.step_share * std::abs(coc_a_px + coc_b_px);
 }
 inline bool one_surface(float coc_a_px, float coc_b_px) {
     return std::abs(coc_a_px - coc_b_px) < surface_step_px(coc_a_px, coc_b_px);
 }
 
 // The radius from which on a pixel near a silhouette shows a third surface, behind the two that meet there.
-// Pixels of the farther of these lie behind threshold_px, one at `own_px` by half of the step. A quarter of
+// Pixels of the farther of these lie behind threshold_px, one at `own_px` by half of the step. An eighth of
 // the step leaves room for the slope of that surface, but never so much that it is another surface.
 inline float third_surface_px(float own_px, float threshold_px) {
     if (own_px <= threshold_px) return std::numeric_limits<float>::infinity();
@@ -72,11 +72,8 @@ private:
     bool lights_around(Place at) const { return lights_around_(at.x / kBlock, at.y / kBlock) != 0; }
     Rgba seen_through_blur(Place at, Direction outwards, float distance_px) const;
     Rgba among_lights(Rgba own, Place from, Direction outwards, float distance_px) const;
-    struct Mean {
-        float span;  // length of the mean, as a multiple of the distance
-        float usual = std::numeric_limits<float>::infinity();  // brighter pixels get a small weight
-    };
-    Rgba shown(Place from, Direction outwards, float distance_px, const Mean& mean, Rgba otherwise) const;
+    // Pixels brighter than `usual` get a small weight.
+    Rgba shown(Place from, Direction outwards, float distance_px, float usual, Rgba otherwise) const;
 
     const LitPicture& picture_;
     const Mixtures& mixtures_;

@@ -54,7 +54,7 @@ TEST(KnownSurfaces, ASignGoesOnByAsMuchOfItAsShows) {
     EXPECT_NEAR(light_behind(60, 6), kWhole, 0.05f * kWhole);
     for (const int shows : {3, 6, 12})
         for (const float distance : {8.0f, 14.0f, 20.0f}) {
-            const float share = float(shows) / (float(shows) + 1.5f * distance);
+            const float share = float(shows) / (float(shows) + distance);
             EXPECT_NEAR((light_behind(shows, distance) - kWall) / (kWhole - kWall), share, 0.15f)
                 << shows << " columns, " << distance << " px behind";
         }

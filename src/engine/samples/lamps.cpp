@@ -22,7 +22,7 @@ public:
     bool contains(int x, int y) const { return coc_.rect().contains(x, y); }
     Rgba at(int x, int y) const {
         if (!contains(x, y)) return {};
-        if (const Mixture* m = mixtures_.at(x, y)) return unhidden_light(*m);
+        if (const Mixture* m = mixtures_.at(x, y)) return m->far_light;
         return picture_.colour(x, y) - picture_.dim(x, y);
     }
     float coc_px(int x, int y) const {
@@ -36,7 +36,7 @@ public:
         const Mixture* m = mixtures_.at(x, y);
         if ((m ? m->near_coc_px : coc_(x, y)) >= lamp_px - completion_model.step_px) return 0;
         if (!m) return 1;
-        const float nothing = completion_model.lamp_hides;
+        const float nothing = completion_model.covers;
         return m->shows_far || m->far_light != Rgba{}
                    ? 0
                    : std::max(0.0f, (m->near_share - nothing) / (1 - nothing));
@@ -84,7 +84,7 @@ public:
             for (int v = p.y - 1; v <= p.y + 1; ++v)
                 for (int u = p.x - 1; u <= p.x + 1; ++u) visit({u, v}, light_.coc_px(p.x, p.y), lamp, open);
         }
-        if (float(std::max(lamp.bounds.width(), lamp.bounds.height())) > completion_model.lamp_widest_px)
+        if (float(std::max(lamp.bounds.width(), lamp.bounds.height())) > completion_model.lit_widest_px)
             lamp.pixels.clear();
         return lamp;
     }
@@ -155,10 +155,6 @@ void complete(const Lamp& lamp, const LampLight& light, const Visit& visit) {
 }
 
 }  // namespace
-
-Rgba unhidden_light(const Mixture& m) {
-    return m.far_light * (1 / std::max(completion_model.lamp_least_seen, 1 - m.near_share));
-}
 
 HiddenLamps lamps_behind(const LitPicture& picture, View<const float> coc, const Mixtures& mixtures,
                          Workers& workers) {

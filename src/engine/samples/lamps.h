@@ -11,10 +11,6 @@
 
 namespace petzval::engine {
 
-// The light of lamps behind a silhouette as it would be without the occluder. 0 for pixels hidden by more
-// than half, where it is unknown.
-Rgba unhidden_light(const Mixture& mixture);
-
 // Light of a lamp that a nearer surface hides.
 struct HiddenLamp {
     int x = 0;
@@ -30,8 +26,8 @@ struct HiddenLamps {
     }
 };
 
-// Upper limit of lamp_widest_px: lamps are searched no farther from the edge that cuts them.
-constexpr int kWidestLampPx = 32;
+// Upper limit of lit_widest_px: lamps are searched no farther from the edge that cuts them.
+constexpr int kWidestLampPx = 64;
 
 // A lamp is assumed to be as deep, across the edge that cuts it, as it is wide along the edge, and
 // point-symmetric: its hidden end is the mirror image of the visible one. So it never holds more than twice

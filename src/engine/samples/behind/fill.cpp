@@ -112,7 +112,7 @@ private:
     float likeness(const Found& a, Direction to_a, const Found& b, Direction to_b) const {
         const Patch at_a = patch_at(a, to_a), at_b = patch_at(b, to_b);
         const CompletionModel& model = completion_model;
-        float difference = 0, level = model.patch_level;
+        float difference = 0, level = 1e-6f;  // two black patches are alike
         for (std::size_t k = 0; k < kPatch; ++k) {
             difference += square(at_a[k] - at_b[k]);
             level += square(0.5f * (at_a[k] + at_b[k]));
@@ -328,7 +328,7 @@ struct Band {
             for (int x = square.x0; x < square.x1; ++x) {
                 const Mixture* m = mixtures.at(x, y);
                 // (A silhouette's farther surface hides another one if it lies in front of focus itself.)
-                if (m && m->shows_far && m->far_coc_px > -completion_model.apart_px) continue;
+                if (m && m->shows_far && m->far_coc_px > -completion_model.apart_px()) continue;
                 if ((!m || m->shows_far) && !filler.may_hide(x, y)) continue;
                 Range& own = ranges(x, y - rows.y0);
                 if (const Range* known = answers.find(x, y, coc(x, y))) {

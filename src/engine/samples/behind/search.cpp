@@ -9,6 +9,8 @@
 
 namespace petzval::engine {
 
+constexpr float kNextPx = 1;  // blur that ends in a pixel touches the next
+
 SurfaceSearch::SurfaceSearch(const KnownSurfaces& known, View<const float> coc, const Mixtures& mixtures,
                              float largest_px, float farthest_px, Workers& workers)
     : known_(known), coc_(coc), farthest_(farthest_px) {
@@ -17,11 +19,11 @@ SurfaceSearch::SurfaceSearch(const KnownSurfaces& known, View<const float> coc, 
 }
 
 bool SurfaceSearch::may_hide(int x, int y) const {
-    return beyond_(x / kBlock, y / kBlock) <= std::abs(coc_(x, y)) + completion_model.past_edge_px;
+    return beyond_(x / kBlock, y / kBlock) <= std::abs(coc_(x, y)) + kNextPx;
 }
 
 float SurfaceSearch::reach_px(float own_px, float behind_px) {
-    return std::abs(own_px) + std::abs(behind_px) + completion_model.past_edge_px;
+    return std::abs(own_px) + std::abs(behind_px) + kNextPx;
 }
 
 // Per block of pixels: the smallest distance to a silhouette of a surface in the block, less the blur of
@@ -100,7 +102,7 @@ std::array<Found, kHits> SurfaceSearch::look(const Start& from, std::size_t k) c
         if (c > behind && c > own + step->t * own_per_px + completion_model.step_px) {
             hits[n++] = {true, int(u), int(v), c, step->t};
             // (A surface in front of focus hides another one, past whose edges the lens looks in turn.)
-            longest = std::min(longest, std::max(completion_model.search_factor * step->t, step->t - c));
+            longest = std::min(longest, step->t + std::max(0.0f, -c));
             behind = c + 2 * completion_model.step_px;
             if (n == kHits || behind >= farthest_) break;
         }

@@ -13,9 +13,8 @@
 namespace petzval::engine {
 namespace {
 
-constexpr int kReach = 6;       // upper limit of edge_reach_px
-constexpr int kLongestPx = 60;  // longest continuation of an edge; strips of a frame overlap by more
-constexpr int kCell = 16;       // pixels on a side
+constexpr int kReach = 6;  // upper limit of edge_reach_px
+constexpr int kCell = 16;  // pixels on a side
 
 float rise(float value, float from, float to) { return std::clamp((value - from) / (to - from), 0.0f, 1.0f); }
 
@@ -37,7 +36,7 @@ public:
         const float dx = -c.at_x / c.sum, dy = -c.at_y / c.sum;
         const float off = dx * nx + dy * ny;
         const float spread = (nx * nx * c.at_xx + 2 * nx * ny * c.at_xy + ny * ny * c.at_yy) / c.sum;
-        if (std::abs(off) > model.edge_off_px || spread - off * off > model.edge_spread_px2) return {};
+        if (std::abs(off) > model.end_px || spread - off * off > model.end_px * model.end_px) return {};
         float into_x = -ny, into_y = nx, along = dx * into_x + dy * into_y;
         if (along < 0) into_x = -into_x, into_y = -into_y, along = -along;
         if (along < 1 || !hidden(x, y, into_x, into_y, coc_px)) return {};
@@ -136,7 +135,7 @@ CutEdges::CutEdges(const LitPicture& picture, View<const float> radii, const Mix
 }
 
 void CutEdges::sort_into_cells(int width, int height) {
-    constexpr int kHalf = kLongestPx / 2;
+    constexpr int kHalf = kContinuesPx / 2;
     columns_ = (width + kCell - 1) / kCell;
     const int rows = (height + kCell - 1) / kCell;
     near_.resize(std::size_t(columns_) * std::size_t(rows));
@@ -156,7 +155,7 @@ float CutEdges::passes(Point shown, Point hidden, float coc_px) const {
     float open = 1;
     for (const int i : near_[std::size_t(hidden.y / kCell * columns_ + hidden.x / kCell)]) {
         const Edge& e = edges_[std::size_t(i)];
-        if (std::abs(e.coc_px - coc_px) > model.apart_px) continue;
+        if (std::abs(e.coc_px - coc_px) > model.apart_px()) continue;
         const auto x = [&](Point p) { return float(p.x - e.at.x) - e.off_x; };
         const auto y = [&](Point p) { return float(p.y - e.at.y) - e.off_y; };
         const auto side = [&](Point p) { return y(p) * e.into_x - x(p) * e.into_y; };
@@ -164,7 +163,7 @@ float CutEdges::passes(Point shown, Point hidden, float coc_px) const {
         const float a = side(hidden), b = side(shown);
         if (a * b >= 0) continue;
         const float met = (ahead(hidden) * b - ahead(shown) * a) / (b - a);
-        if (met < -model.outline_end_px || met > model.edge_longest_px) continue;
+        if (met < -model.end_px || met > model.continues_px) continue;
         open *= 1 - e.strength * std::min({1.0f, std::abs(a) / model.barrier_soft_px,
                                            std::abs(b) / model.barrier_soft_px});
     }

@@ -15,12 +15,8 @@ namespace {
 
 using Outline = HiddenOutlines::Outline;
 
-constexpr int kCell = 16;        // pixels on a side
-constexpr int kLongestPx = 110;  // most of outline_longest_px
-constexpr int kFarthestPx = 90;  // most of outline_farthest_px
-constexpr int kEndCell = 32;     // pixels on a side
-static_assert(kFarthestPx + kTracedPx + kEndCell <= kOutlineReachPx);
-static_assert(kLongestPx + kTracedPx + kCell <= kOutlineReachPx);
+constexpr int kCell = 16;  // pixels on a side
+static_assert(kContinuesPx + kTracedPx + kCell <= kOutlineReachPx);
 
 // A column or row of `cells` cells, each `px` wide.
 int cell_of(int at, int px, int cells) { return std::clamp(at / px, 0, cells - 1); }
@@ -47,12 +43,12 @@ struct Course {
 class EndJoiner {
 public:
     EndJoiner(View<const float> coc, std::vector<OutlineEnd> ends) : coc_(coc), ends_(std::move(ends)) {
-        columns_ = coc.width() / kEndCell + 1, rows_ = coc.height() / kEndCell + 1;
+        columns_ = coc.width() / kCell + 1, rows_ = coc.height() / kCell + 1;
         near_.resize(std::size_t(columns_) * std::size_t(rows_));
         for (std::size_t i = 0; i < ends_.size(); ++i) near_[cell(ends_[i].at)].push_back(facing(int(i)));
         // Largest number of ends in a cell. More, as noise in depth makes them, meet by chance, and testing
         // all pairs would take too long.
-        constexpr std::size_t kMostInCell = 64;
+        constexpr std::size_t kMostInCell = 16;
         for (auto& in_cell : near_)
             if (in_cell.size() > kMostInCell) in_cell.clear();
     }
@@ -67,7 +63,7 @@ public:
             else if (ends_[std::size_t(other)].told_by == 0)  // too short to continue by itself
                 add(ends_[i], joints[i].arc, hidden_for(ends_[i], {joints[i].arc}), outlines);
             else if (ends_[i].told_by > 0 && other > int(i))
-                add(ends_[i], joints[i].arc, joints[i].length_px + completion_model.outline_end_px, outlines);
+                add(ends_[i], joints[i].arc, joints[i].length_px + completion_model.end_px, outlines);
         }
         return outlines;
     }
@@ -99,19 +95,19 @@ private:
             const float ahead = to.x * into.x + to.y * into.y, back = -(to.x * o.into.x + to.y * o.into.y);
             const float squared = to.x * to.x + to.y * to.y, least = std::min(ahead, back);
             return least > 1 && 4 * least * least > squared &&
-                   squared < completion_model.outline_farthest_px * completion_model.outline_farthest_px;
+                   squared < completion_model.continues_px * completion_model.continues_px;
         }
     };
 
-    std::size_t cell(PixelAt at) const { return std::size_t(at.y / kEndCell * columns_ + at.x / kEndCell); }
+    std::size_t cell(PixelAt at) const { return std::size_t(at.y / kCell * columns_ + at.x / kCell); }
     Facing facing(int i) const {
         const OutlineEnd& end = ends_[std::size_t(i)];
         return {i, end.at, into_of(end), end.coc_px, end.same_is_left, end.told_by > 0};
     }
     // Area of the ends that this one can meet: within 60 degrees of its direction.
     static Rect reached(const Facing& end) {
-        constexpr float kWidest = 0.87f * float(kFarthestPx);
-        const auto least = [](float into) { return int(std::min(0.0f, float(kFarthestPx) * into)); };
+        constexpr float kWidest = 0.87f * float(kContinuesPx);
+        const auto least = [](float into) { return int(std::min(0.0f, float(kContinuesPx) * into)); };
         const int aside_x = int(kWidest * std::abs(end.into.y)),
                   aside_y = int(kWidest * std::abs(end.into.x));
         return {end.at.x + least(end.into.x) - aside_x, end.at.y + least(end.into.y) - aside_y,
@@ -122,9 +118,8 @@ private:
         Joint best;
         if (near_[cell(own.at)].empty()) return best;  // too many
         const Rect ahead = reached(own);
-        for (int v = cell_of(ahead.y0, kEndCell, rows_); v <= cell_of(ahead.y1, kEndCell, rows_); ++v)
-            for (int u = cell_of(ahead.x0, kEndCell, columns_); u <= cell_of(ahead.x1, kEndCell, columns_);
-                 ++u)
+        for (int v = cell_of(ahead.y0, kCell, rows_); v <= cell_of(ahead.y1, kCell, rows_); ++v)
+            for (int u = cell_of(ahead.x0, kCell, columns_); u <= cell_of(ahead.x1, kCell, columns_); ++u)
                 for (const Facing& other : near_[std::size_t(v * columns_ + u)])
                     if (own.meets(other))
                         if (const auto joint = joint_of(i, other.number); joint && joint->better_than(best))
@@ -169,20 +164,19 @@ private:
     // Length over which a nearer surface hides the outline. If the outline becomes visible again as
     // expected, the length counts from the place where it is hidden again. sure: its course is certain.
     float hidden_for(const OutlineEnd& end, const Course& course, bool sure = false) const {
-        const int most_px =
-            int(sure ? completion_model.outline_farthest_px : completion_model.outline_longest_px);
+        const int most_px = int(completion_model.continues_px);
         for (int t = 1; t <= most_px; ++t) {
             if (side(end, course.at(float(t) + 0.5f)) == DepthSide::Nearer) continue;
             const int hidden_again = t + shown_for(end, course, t);
             if (t == 1 && !sure && hidden_again > t + kLeastTracedPx) return 0;
-            if (hidden_again == t) return t == 1 ? 0 : float(t) + completion_model.outline_end_px;
+            if (hidden_again == t) return t == 1 ? 0 : float(t) + completion_model.end_px;
             t = hidden_again;
         }
         return float(most_px);
     }
     int shown_for(const OutlineEnd& end, const Course& course, int from) const {
-        const float off = completion_model.outline_end_px;
-        for (int n = 0; from + n <= kFarthestPx; ++n) {
+        const float off = completion_model.end_px;
+        for (int n = 0; from + n <= kContinuesPx; ++n) {
             const float along = float(from + n) + 0.5f;
             const DepthSide right = side(end, course.at(along, off)),
                             left = side(end, course.at(along, -off));
@@ -288,7 +282,7 @@ HiddenOutlines::Open HiddenOutlines::open(PixelAt shown, PixelAt hidden, float c
         const float sign = from_left ? 1.0f : -1.0f;
         if (sign * o.arc.right_of(to) <= 0 || sign * o.arc.right_of(from) >= 0) continue;
         const float met = from_left ? o.arc.crossed(to, from) : o.arc.crossed(from, to);
-        if (met < -model.outline_end_px || met > o.length_px) continue;
+        if (met < -model.end_px || met > o.length_px) continue;
         (own ? open.within : open.unhidden) *=
             1 - std::min(1.0f, std::abs(o.arc.aside(to)) / model.barrier_soft_px);
     }

@@ -104,10 +104,8 @@ DepthSide depth_side(View<const float> coc, PixelAt pixel, float surface) {
 }
 
 bool line_or_arc(const FittedArc& line, const FittedArc& arc, Arc& best) {
-    const CompletionModel& model = completion_model;
-    const bool is_line = tells(line) && (line.mean_px < model.outline_line_px || line.mean_px < arc.mean_px);
-    best = is_line ? line.arc : arc.arc;
-    return is_line || tells(arc);
+    best = tells(line) ? line.arc : arc.arc;
+    return tells(line) || tells(arc);
 }
 
 std::optional<OutlineEnd> outline_end(View<const float> coc, int x, int y) {

@@ -45,7 +45,7 @@ public:
         const Rgba c = picture_.dim(x, y);
         const Explained e = expected(comparable(c), near, far, m.share_by_shape, m.errors());
         m.near_clean = near.colour;
-        m.shows_far = m.shows_far || e.near_share < completion_model.strand_covers;
+        m.shows_far = m.shows_far || e.near_share < completion_model.covers;
         m.far_colour = far.colour;
         if (m.shows_far) m.take_apart(c, e.near_share, e.far_colour);
     }

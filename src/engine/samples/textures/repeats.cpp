@@ -99,7 +99,7 @@ float grain_of(const Details& piece) {
     if (blocks < kLeastBlocks || variances <= 0) return 0;
     const double kurtosis = fourth * blocks * kBlock * kBlock / (second * second);
     const double rough = means / (means + variances), uneven = blocks * squares / (variances * variances) - 1;
-    return model.grain_contrast * within(rough, double(model.grain_rough) / 100) *
+    return within(rough, double(model.grain_rough) / 100) *
            within(uneven, 2 * double(model.grain_rough) / 100) *
            within(kurtosis - kNormal - double(model.grain_kurtosis) + 1, 1) *
            float(std::clamp((kurtosis - kNormal + double(model.grain_kurtosis)) / 0.3, 0.0, 1.0));
@@ -117,9 +117,10 @@ Details::Details(int inner_, int farthest_)
 
 Texture texture_of(const Details& piece) {
     constexpr float kLeastHeld = 16;
+    constexpr double kFlat = 1e-6;  // squared, relative: rounding alone shows so much contrast
     Texture texture{};
     const Correlation alike(piece);
-    if (alike.held() < kLeastHeld || alike.contrast() < completion_model.texture_contrast) return texture;
+    if (alike.held() < kLeastHeld || alike.contrast() < kFlat) return texture;
     find_repeats(alike, piece.farthest, texture);
     // A texture that repeats is not grain.
     texture.grain = std::clamp(5 * (completion_model.texture_least - texture.repeats[0].alike), 0.0f, 1.0f) *
