@@ -151,13 +151,13 @@ ShaderWords words_of(Shader shader) {
         ShaderWords{kStarFilter, buffers(4), 52},
         ShaderWords{kStarAdd, buffers(2), 52},
         ShaderWords{kDevelop, buffers(2), 52},
-        ShaderWords{kRealtimeMeasure, kOfMeasure, 40},
-        ShaderWords{kRealtimeSplit, kOfSplit, 40},
-        ShaderWords{kRealtimeReach, kOfReach, 40},
-        ShaderWords{kRealtimeGather, kOfGather, 40},
-        ShaderWords{kRealtimeCombine16, kOfCombine, 40},
-        ShaderWords{kRealtimeCombine32, kOfCombine, 40},
-        ShaderWords{kRealtimeCombine11, kOfCombine, 40},
+        ShaderWords{kRealtimeMeasure, kOfMeasure, 56},
+        ShaderWords{kRealtimeSplit, kOfSplit, 56},
+        ShaderWords{kRealtimeReach, kOfReach, 56},
+        ShaderWords{kRealtimeGather, kOfGather, 56},
+        ShaderWords{kRealtimeCombine16, kOfCombine, 56},
+        ShaderWords{kRealtimeCombine32, kOfCombine, 56},
+        ShaderWords{kRealtimeCombine11, kOfCombine, 56},
     };
     return kWords[std::size_t(shader)];
 }
