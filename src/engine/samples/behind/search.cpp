@@ -9,7 +9,7 @@
 
 namespace petzval::engine {
 
-constexpr float kNextPx = 1;  // blur that ends in a pixel touches the next
+constexpr float kNextPx = 2;  // the mixed pixel of an edge and the next: blur of 1 px still mixes light there
 
 SurfaceSearch::SurfaceSearch(const KnownSurfaces& known, View<const float> coc, const Mixtures& mixtures,
                              float largest_px, float farthest_px, Workers& workers)
