@@ -37,6 +37,15 @@ class ShortMemory(CommandLineTest):
         self.assertGreater(ended[0], 2)
         self.assertGreater(ended[1], 2)
 
+    def test_a_driver_in_software_is_refused_before_addresses_run_out(self):
+        self.succeed("scene", "make", "lanterns", "--width", "640", "--height", "360", "--pinhole-samples", "1", "-o", "in.exr")
+        for mebibytes in (400, 450, 500, 600, 800):
+            outcome = self.run_program("defocus", "in.exr", "-o", "out.exr", "--engine", "realtime", "--device", "gpu", "-q",
+                                       "--overwrite", limits=address_space(mebibytes))
+            where = "%s in %d MiB" % (outcome, mebibytes)
+            self.assertIn(outcome.code, (0, 1, 2), where)  # 2: without a driver
+            self.assertEqual(len(outcome.lines), min(outcome.code, 1), where)
+
     def test_a_limit_of_the_system_is_kept_to_and_what_is_enough_is_named(self):
         self.succeed("scene", "make", "table", "--width", "1280", "--height", "720", "--pinhole-samples", "1", "-o", "in.exr")
         defocus = ["defocus", "in.exr", "-o", "out.exr", "--kernel-cache", "off", "-q", "--threads", "1"]
