@@ -103,7 +103,7 @@ void LookFlags::settle() {
     refuse_both(!preset_.empty(), "--preset", !file_.empty(), "--look");
     if (!preset_.empty()) {
         auto read = read_preset(preset_);
-        if (!read) throw UsageError("--preset " + read.error().message, read.error().code);
+        if (!read) throw UsageError("--preset: " + read.error().message, read.error().code);
         look_ = std::move(*read);
     }
     if (!file_.empty()) {
