@@ -1,10 +1,11 @@
 #include "petzval/look_json.h"
 
+#include "base/temporary_folder.h"
+
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <gtest/gtest.h>
 
@@ -17,16 +18,13 @@ using testing::HasSubstr;
 class OwnPresets : public testing::Test {
 protected:
     void SetUp() override {
-        fs::create_directories(folder_);
         ::setenv("PETZVAL_PRESETS", folder_.c_str(), 1);
     }
-    void TearDown() override {
-        ::unsetenv("PETZVAL_PRESETS");
-        fs::remove_all(folder_);
-    }
+    void TearDown() override { ::unsetenv("PETZVAL_PRESETS"); }
     void write(const std::string& name, const std::string& text) { std::ofstream(folder_ / name) << text; }
 
-    fs::path folder_ = fs::temp_directory_path() / ("petzval-presets-" + std::to_string(::getpid()));
+    const test::TemporaryFolder own_;
+    const fs::path folder_ = own_.path();
 };
 
 TEST_F(OwnPresets, ComeBeforeThoseThatShip) {
