@@ -17,9 +17,7 @@ using testing::HasSubstr;
 
 class OwnPresets : public testing::Test {
 protected:
-    void SetUp() override {
-        ::setenv("PETZVAL_PRESETS", folder_.c_str(), 1);
-    }
+    void SetUp() override { ::setenv("PETZVAL_PRESETS", folder_.c_str(), 1); }
     void TearDown() override { ::unsetenv("PETZVAL_PRESETS"); }
     void write(const std::string& name, const std::string& text) { std::ofstream(folder_ / name) << text; }
 

@@ -238,7 +238,7 @@ void RealtimePass::set_lens(std::shared_ptr<const engine::RealtimeLens> lens) {
     const auto loaded = std::make_shared<Loaded>();
     loaded->written = heap_.allocate(Kind::ToDevice, lens->bytes());
     loaded->on_device = heap_.allocate(Kind::OnDevice, lens->bytes());
-    std::memcpy(loaded->written.mapped(), lens->fours.data(), lens->bytes());
+    std::memcpy(loaded->written->mapped(), lens->fours.data(), lens->bytes());
     loaded->lens = std::move(lens);
     const std::lock_guard lock(mutex_);
     chosen_ = loaded;
@@ -292,12 +292,11 @@ void RealtimePass::take_lens(VkCommandBuffer commands, Slot& slot) {
     }
     Loaded& loaded = *slot.lens;
     if (loaded.copied_in == &slot) {
-        loaded.written = {};
-        heap_.trim();
+        if (loaded.written) loaded.written.reset(), heap_.trim();
     } else if (!loaded.copied_in) {
         order(commands, kCompute, 0, VK_PIPELINE_STAGE_TRANSFER_BIT);
-        const VkBufferCopy copy = {loaded.written.offset(), loaded.on_device.offset(), loaded.lens->bytes()};
-        vk_.vkCmdCopyBuffer(commands, loaded.written.buffer(), loaded.on_device.buffer(), 1, &copy);
+        const VkBufferCopy copy = {loaded.written->offset(), loaded.on_device.offset(), loaded.lens->bytes()};
+        vk_.vkCmdCopyBuffer(commands, loaded.written->buffer(), loaded.on_device.buffer(), 1, &copy);
         loaded.copied_in = &slot;
     }
     write_lens(slot);

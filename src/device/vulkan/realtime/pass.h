@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 namespace petzval::device::vulkan {
@@ -117,7 +118,7 @@ private:
     struct Slot;
     struct Loaded {
         std::shared_ptr<const engine::RealtimeLens> lens;
-        Piece written;                    // by the host; empty once its copy has run
+        std::optional<Piece> written;     // by the host; empty once its copy has run
         Piece on_device;                  // what programs read
         const Slot* copied_in = nullptr;  // the slot whose recording copies it; null: none yet
     };
