@@ -72,6 +72,17 @@ TEST(Device, AutoNeverTakesASoftwareDriver) {
     EXPECT_EQ(report->device != "cpu", any_hardware);
 }
 
+// A host may open a session for each of its shots.
+TEST(Device, OpensAnyNumberOfTimes) {
+    if (gpus().empty()) GTEST_SKIP() << why_no_gpu();
+    for (int i = 0; i < 30; ++i)
+        for (const std::string& gpu : gpus()) {
+            Session session = session_on(gpu);
+            const auto report = session.defocus(flat(8, 8, {1, 1, 1, 1}, 2).job("scatter"));
+            ASSERT_TRUE(report) << gpu << ", opened " << i << " times: " << report.error().message;
+        }
+}
+
 TEST(Device, ScatterDrawsAsTheCpuDoes) {
     if (gpus().empty()) GTEST_SKIP() << why_no_gpu();
     const Shot shot = small_shot();

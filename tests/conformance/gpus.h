@@ -20,6 +20,13 @@ inline std::vector<std::string> gpus() {
     return names;
 }
 
+// A hardware driver stays loaded as it was first asked for: without a layer that a test wants.
+inline bool drivers_stay() {
+    for (const DeviceFacts& device : devices())
+        if (device.name != "cpu" && !device.is_software) return true;
+    return false;
+}
+
 inline Session session_on(const std::string& device) {
     SessionSettings settings;
     settings.device = device;

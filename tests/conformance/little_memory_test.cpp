@@ -32,6 +32,7 @@ protected:
     }
     void SetUp() override {
         if (gpus().empty()) GTEST_SKIP() << why_no_gpu();
+        if (drivers_stay()) GTEST_SKIP() << "needs a software driver, which loads again with a layer";
     }
 
     static std::vector<std::string> said_of_memory(const DefocusReport& report) {

@@ -49,6 +49,14 @@ Result<std::shared_ptr<Instance>> Instance::open() {
     if (const Status created = made->create(); !created) return created.error();
     made->find_candidates();
     kept = made;
+    // A driver of hardware stays for as long as the process, unless what it says is heard at the end:
+    // NVIDIA's (580.159) does not load a 31st time, as each time keeps some of the process's static
+    // thread-local memory, and a host opens and closes sessions for hours.
+    static auto& forever = *new std::shared_ptr<Instance>;
+    const auto& all = made->candidates();
+    if (!made->messenger_ &&
+        std::any_of(all.begin(), all.end(), [](const Candidate& c) { return !c.is_software; }))
+        forever = made;
     return made;
 }
 
