@@ -10,7 +10,7 @@ namespace petzval::device::vulkan {
 
 // Work of one submission. The picture does not depend on it.
 struct BatchRule {
-    std::uint64_t most_multiply_adds = std::uint64_t(1) << 30;
+    std::uint64_t most_multiply_adds = ~std::uint64_t(0);  // besides what a Pace allows
     std::size_t most_partial_bytes = std::size_t(64) << 20;
 };
 

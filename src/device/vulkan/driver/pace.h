@@ -14,7 +14,7 @@ class Pace {
 public:
     static constexpr double kWantedSeconds = 0.2;
     static constexpr std::uint64_t kFirst = std::uint64_t(1) << 26, kLeast = std::uint64_t(1) << 18,
-                                   kMost = std::uint64_t(1) << 30, kGrowth = 4;
+                                   kMost = std::uint64_t(1) << 40, kGrowth = 4;
 
     // Multiply-adds of the next submission.
     std::uint64_t most() const { return most_; }
