@@ -44,11 +44,13 @@ public:
     int height() const { return plan_.colour.height(); }
     int width() const { return plan_.colour.width(); }
 
-    // Rows of the result that are drawn together.
-    int band(std::size_t most_bytes) const {
+    // Rows of the result that are drawn together: as many as fit, but no fewer than surround them, unless
+    // the device was out of memory. Else wide blurs would read the picture again for each few rows.
+    int band(std::size_t wished_bytes, std::size_t most_bytes) const {
         int rows = height();
         while (rows > 1 && bytes_of({0, rows}) > most_bytes) rows = (rows + 1) / 2;
-        return rows;
+        const int middle = height() / 2, around = pixels_for({middle, middle + 1}).size();
+        return most_bytes < wished_bytes ? rows : std::max(rows, std::min(height(), around));
     }
 
     void draw(Span rows, Target out) {
@@ -257,7 +259,8 @@ void mix_blurs(Context& context, const GaussianPlan& plan, Target out, const Con
                std::size_t most_bytes) {
     Mixer mixer(context, plan);
     for (int y = 0; y < mixer.height() && !control.progress.cancelled();) {
-        const int band = mixer.band(context.at_once(most_bytes)), end = std::min(mixer.height(), y + band);
+        const int band = mixer.band(most_bytes, context.at_once(most_bytes)),
+                  end = std::min(mixer.height(), y + band);
         try {
             mixer.draw({y, end}, out);
             y = end;
