@@ -6,10 +6,11 @@ layout(std430, binding = 7) readonly buffer Boxes { ivec4 boxes[]; };  // realti
 const int kLampSteps = 14, kFirstStep = kFirstZone + 2 * kSets * kMostTaps * kShares;
 const float kStepAt = 0.5;  // pixels: the radius of the first kernel; the next are sqrt(2) times as wide each
 
-// Lamps of one tile as a group reads them, by their cells.
+// Lamps as a group reads them, 64 at a time.
 struct Lamp {
     vec2 from;           // pixels
     float radius;        // signed
+    float least_px;      // no radius between the lamp's tile and the group's is smaller
     float cells_per_px;  // of its kernel
     vec3 light;          // times the size of a kernel's cell
     int first, half_side;  // of its kernel in the zone above it and left of it; half_side < 0: it reaches no pixel of the group
@@ -17,7 +18,7 @@ struct Lamp {
 };
 shared Lamp group_lamps[64];
 
-Lamp lamp_of_cell(ivec2 cell) {
+Lamp lamp_of_cell(ivec2 cell, float least_px) {
     const vec4 place = texelFetch(cells, ivec3(cell, kLampPlace), 0);
     const float radius = max(abs(place.z), kStepAt);
     // The nearest kernel keeps the light of small discs; the next larger one keeps the rims of large ones sharp.
@@ -30,7 +31,7 @@ Lamp lamp_of_cell(ivec2 cell) {
     const vec2 gap = abs(vec2(8 * ivec2(gl_WorkGroupID.xy) + 4) - from) - 3.5;
     const bool reaches = max(gap.x, gap.y / at.aspect) * cells_per_px <= kept.y;
     const vec3 light = place.w * cells_per_px * cells_per_px / at.aspect * texelFetch(cells, ivec3(cell, kLampLight), 0).rgb;
-    return Lamp(from, place.z, cells_per_px, light, int(kept.x), reaches ? int(kept.y) : -1, zone_at - vec2(zone));
+    return Lamp(from, place.z, least_px, cells_per_px, light, int(kept.x), reaches ? int(kept.y) : -1, zone_at - vec2(zone));
 }
 
 vec4 cell_at(int first, int side, vec2 share) {
@@ -93,31 +94,21 @@ float let_through(vec2 from, vec2 to, float radius, float near_px) {
     return 1 - min(hidden, 1.0);
 }
 
-// Adds the lamps of one tile, in the order of its cells. least_px: no radius between them and the pixel is smaller. All
-// invocations of the group together.
-void add_lamps(ivec2 tile, uvec2 mask, vec2 pixel, float near_px, float least_px, inout vec4 near, inout vec4 back) {
-    const int own = int(gl_LocalInvocationIndex);
-    barrier();
-    if ((mask[own / 32] >> (own % 32) & 1u) != 0u) group_lamps[own] = lamp_of_cell(8 * tile + ivec2(own % 8, own / 8));
-    barrier();
-    for (int half_of = 0; half_of < 2; ++half_of)
-        for (uint left = mask[half_of]; left != 0u; left &= left - 1u) {
-            const int i = findLSB(left) + 32 * half_of;
-            if (group_lamps[i].half_side < 0) continue;
-            const vec2 from = group_lamps[i].from;
-            const vec4 share = kernel_at(i, pixel - from);
-            if (share.a == 0) continue;
-            const float radius = group_lamps[i].radius;
-            vec4 light = share * vec4(group_lamps[i].light, 0);
-            if (near_px > 0.5) light *= let_through(from, pixel, radius, near_px);
-            if (radius < 0) near += light;
-            else if (least_px >= 0.95 * radius) back += light;  // nothing is nearer
-            else back += light * seen(from, pixel, radius);
-        }
+// Adds the first lamps of a group to a pixel.
+void add_lamps(uint count, vec2 pixel, float near_px, inout vec4 near, inout vec4 back) {
+    for (int i = 0; i < int(count); ++i) {
+        if (group_lamps[i].half_side < 0) continue;
+        const vec2 from = group_lamps[i].from;
+        const vec4 share = kernel_at(i, pixel - from);
+        if (share.a == 0) continue;
+        const float radius = group_lamps[i].radius;
+        vec4 light = share * vec4(group_lamps[i].light, 0);
+        if (near_px > 0.5) light *= let_through(from, pixel, radius, near_px);
+        if (radius < 0) near += light;
+        else if (group_lamps[i].least_px >= 0.95 * radius) back += light;  // nothing is nearer
+        else back += light * seen(from, pixel, radius);
+    }
 }
-
-shared uvec4 heads[64];  // which cells of a tile have lamps; where the tile is; the smallest radius up to there
-shared uint head_words[2];
 
 // True if lamps of a tile, at most this wide, may reach a pixel of the group.
 bool reaches_group(ivec2 tile, float radius_px) {
@@ -135,30 +126,58 @@ float least_between(ivec2 a, ivec2 b) {
     return least;
 }
 
-// All invocations of the group together: each looks at a tile of the box; what none of their pixels sees costs them no more.
+// All invocations of the group together: each looks at a tile of the box, and then reads a lamp of those found. What none
+// of their pixels sees costs them no more.
+shared uint lamp_counts[64], all_lamps;  // of the tiles
+shared uvec2 lamps_found[64];  // cell: column, row << 16; bits of the smallest radius up to its tile
 void add_all_lamps(ivec2 pixel, float near_px, inout vec4 near, inout vec4 back) {
     const uint own = gl_LocalInvocationIndex;
     const ivec2 own_tile = 8 * ivec2(gl_WorkGroupID.xy) / kTile;
     const ivec4 box = boxes[own_tile.y * at.tiles.x + own_tile.x];
     const int across = max(box.z - box.x + 1, 0), count = across * max(box.w - box.y + 1, 0);
     for (int first = 0; first < count; first += 64) {
-        barrier();
-        if (own < 2u) head_words[own] = 0u;
-        barrier();
+        uvec2 mask = uvec2(0);  // cells of the tile that have lamps
+        ivec2 tile = ivec2(0);
+        uint least_px = 0u;
         const int i = first + int(own);
         if (i < count) {
-            const ivec2 tile = box.xy + ivec2(i % across, i / across);
+            tile = box.xy + ivec2(i % across, i / across);
             const uvec4 head = lamps[tile.y * at.tiles.x + tile.x];
             if ((head.x | head.y) != 0u && reaches_group(tile, uintBitsToFloat(head.z))) {
-                heads[own] = uvec4(head.xy, uint(tile.x) | uint(tile.y) << 16, floatBitsToUint(least_between(tile, own_tile)));
-                atomicOr(head_words[own / 32u], 1u << (own % 32u));
+                mask = head.xy;
+                least_px = floatBitsToUint(least_between(tile, own_tile));
             }
         }
+        const uint lamps_of_tile = uint(bitCount(mask.x) + bitCount(mask.y));
         barrier();
-        for (uint word = 0u; word < 2u; ++word)
-            for (uint left = head_words[word]; left != 0u; left &= left - 1u) {
-                const uvec4 head = heads[findLSB(left) + 32 * int(word)];
-                add_lamps(ivec2(head.z & 0xffffu, head.z >> 16), head.xy, vec2(pixel) + 0.5, near_px, uintBitsToFloat(head.w), near, back);
+        if (own == 0u) all_lamps = 0u;
+        barrier();
+        lamp_counts[own] = lamps_of_tile;
+        atomicAdd(all_lamps, lamps_of_tile);
+        barrier();
+        const uint all = all_lamps;
+        uint before = 0u;
+        if (lamps_of_tile > 0u)
+            for (uint k = 0u; k < own; ++k) before += lamp_counts[k];
+        for (uint begin = 0u; begin < all; begin += 64u) {
+            uvec2 left = mask;
+            for (uint number = before; (left.x | left.y) != 0u && number < begin + 64u; ++number) {
+                const bool is_first = left.x != 0u;
+                const int cell = is_first ? findLSB(left.x) : 32 + findLSB(left.y);
+                if (is_first) left.x &= left.x - 1u;
+                else left.y &= left.y - 1u;
+                const uvec2 place = uvec2(8 * tile + ivec2(cell % 8, cell / 8));
+                if (number >= begin) lamps_found[number - begin] = uvec2(place.x | place.y << 16, least_px);
             }
+            barrier();
+            const uint found = min(all - begin, 64u);
+            if (own < found) {
+                const uvec2 lamp = lamps_found[own];
+                group_lamps[own] = lamp_of_cell(ivec2(lamp.x & 0xffffu, lamp.x >> 16), uintBitsToFloat(lamp.y));
+            }
+            barrier();
+            add_lamps(found, vec2(pixel) + 0.5, near_px, near, back);
+            barrier();
+        }
     }
 }
