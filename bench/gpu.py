@@ -15,7 +15,9 @@ in `gather`; of a blur 5 for each tap of each cell. A pixel of a small picture s
 Of engine `realtime` all passes: the bytes that its images and buffers hold, each once for each pass that reads or writes
 it, as the pass itself counts them (src/device/vulkan/realtime/pass.cpp); hosts have colours of 16 bits and save 8 bytes a
 pixel for each of the four times that these cross memory.
-`glare` is not an engine: bloom and veil with the quick star, then with the final one, over the picture as it is, at any radius.
+`host` is not an engine: the real-time pass as a host embeds it (bench/host_pass.cpp), medians of 160 frames, two in flight;
+besides the scenes a plane with as many bright pixels in a thousand at 48 px. It draws on the first device of all.
+`glare` is not one: bloom and veil with the quick star, then with the final one, over the picture as it is, at any radius.
 `develop` is none either: light to codes of 8 bits, at any radius.
 Not in it: what is looked at and not hit, waiting, copies from and to the host. How near a GPU comes is not known yet.
 """
@@ -30,6 +32,7 @@ from quality import CACHE, PROGRAM, ROOT, machine, petzval, scene_state
 
 BENCH = pathlib.Path(PROGRAM).parents[2] / "bench/petzval_bench_gpu"
 SPEED = BENCH.with_name("petzval_bench_speed")
+HOST = BENCH.with_name("petzval_bench_host_pass")
 # Bytes a second of memory, FP32 multiply-adds a second (half the FLOPS), as published; read on 2026-11-22:
 # https://fpsbench.com/compare/gpu/nvidia-geforce-rtx-4060-vs-nvidia-t600 (272.0 GB/s, 15.11 TFLOPS),
 # https://www.gpu-monkey.com/en/gpu-amd_radeon_rx_7800_xt (624 GB/s), https://cputronic.com/gpu/amd-radeon-rx-7800-xt
@@ -125,15 +128,41 @@ def rows_of(engine, given, device, counted):
                            "–" if software or not p["bytes"] else f"{p['bytes'] / seconds / 1e9:.0f}"]
 
 
+def hosted(path, radius, given, *more):
+    words = [HOST, path, "--radius", radius, "--repeat", 2 if given.software else 200, *more]
+    result = subprocess.run([*map(str, words)], stdout=subprocess.PIPE, text=True)
+    if result.returncode:
+        sys.exit(result.returncode)
+    found = json.loads(result.stdout)
+    return ["–" if given.software else f"{found[step]:.3f}" for step in [*REALTIME_PASSES, "all"]]
+
+
+def host_rows(given):
+    widths = given.widths or ([320] if given.software else [1920, 3840])
+    for width in widths:
+        for scene in given.scenes:
+            for radius in given.radii:
+                yield [scene, width, f"{radius:g}", *hosted(picture(scene, width), radius * width / 1920 if given.software else radius, given)]
+    for quality in ("draft", "final"):
+        path = picture(given.scenes[0], widths[0])
+        yield [f"{given.scenes[0]}, {quality}", widths[0], "40", *hosted(path, 40, given, "--quality", quality)]
+    for bright in (0, 1, 3, 10, 30, 100):
+        yield [f"bright pixels, {bright} ‰", widths[0], "48", *hosted(picture(given.scenes[0], widths[0]), 48, given, "--bright", bright)]
+
+
 def page(given, device):
     software, counted = device["software"], []
-    rows = [row for engine in given.engines for row in rows_of(engine, given, device, counted)]
+    given.software = software
+    rows = [row for engine in given.engines if engine != "host" for row in rows_of(engine, given, device, counted)]
     text = []
     say = text.append
     say(f"# {device['name']}, {device['title']}\n")
     say(f"{machine()}; `./dev bench gpu`." + (" A software driver: no milliseconds." if software else
         f" Its memory copies {given.copied / 1e9:.0f} GB/s, reads and writes counted; the longest submission took "
         f"{given.longest:.0f} ms.") + "\n")
+    if "host" in given.engines:
+        say("The real-time pass of a host, ms of the device.\n")
+        say(table(["picture", "width", "radius", *REALTIME_PASSES, "all"], host_rows(given)) + "\n")
     say(table(["engine", "scene", "width", "radius", "pass", "ms", "submissions", "multiply-adds/px", "G multiply-adds/s",
                "bytes/px", "GB/s"], rows))
     if "scatter" in given.engines:
@@ -156,7 +185,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--device")
     parser.add_argument("--engines", "--engine", type=lambda s: s.split(","),
-                        default=["scatter", "gather", "gaussian", "sprites", "realtime", "glare", "develop"])
+                        default=["host", "scatter", "gather", "gaussian", "sprites", "realtime", "glare", "develop"])
     parser.add_argument("--widths", type=lambda s: [int(w) for w in s.split(",")])
     parser.add_argument("--radii", type=lambda s: [float(r) for r in s.split(",")], default=[16, 64])
     parser.add_argument("--scenes", type=lambda s: s.split(","), default=["night", "table"])
