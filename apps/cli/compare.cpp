@@ -53,32 +53,24 @@ std::string places_text(const std::vector<WorstPlace>& worst) {
     return text;
 }
 
-// The text of the places, and the report.
-struct Compared {
-    Comparison comparison;
-    Json report;
-    std::string places;
-};
-
-Result<Compared> compare_files(const CompareFlags& flags) {
-    const CompareFiles files{flags.reference.source(),   flags.test, flags.mask, flags.output, flags.exposure,
-                             !flags.overwrite.no_clobber};
-    auto compared = petzval::compare_files(files, terminal());
-    if (!compared) return compared.error();
-    return Compared{compared->comparison, Json::parse(compared->record), places_text(compared->worst)};
+CompareFiles files_of(const CompareFlags& flags) {
+    return {flags.reference.source(),   flags.test, flags.mask, flags.output, flags.exposure,
+            !flags.overwrite.no_clobber};
 }
 
 Status compare_pair(const CompareFlags& flags) {
     if (!flags.output.empty() && flags.overwrite.skips({flags.output})) return Done{};
-    const auto compared = compare_files(flags);
+    const auto compared = compare_files(files_of(flags), terminal());
     if (!compared) return compared.error();
-    return tell(table(compared->comparison) + compared->places, compared->report, flags.run.json);
+    return tell(table(compared->comparison) + places_text(compared->worst), Json::parse(compared->record),
+                flags.run.json);
 }
 
 // A row a frame, then the mean and the worst: a shot is as good as its worst frame.
 class ShotTable {
 public:
-    void add(int frame, const Comparison& c, const std::string& places) {
+    void add(int frame, const ComparedFiles& compared) {
+        const Comparison& c = compared.comparison;
         rows_ += row(std::to_string(frame), c);
         sum_.psnr_lin += c.psnr_lin;
         sum_.psnr_srgb += c.psnr_srgb;
@@ -86,7 +78,7 @@ public:
         if (count_++ == 0 || c.psnr_lin < worst_.psnr_lin) {
             worst_ = c;
             worst_frame_ = frame;
-            places_ = places;
+            places_ = places_text(compared.worst);
         }
     }
     std::string text() const {
@@ -112,30 +104,12 @@ private:
     int count_ = 0, worst_frame_ = 0;
 };
 
-Status compare_frames(const CompareFlags& all) {
-    const auto of_frame = [&](int frame) {
-        CompareFlags flags = all;
-        put_frame(frame, {&flags.reference.path, &flags.test, &flags.mask, &flags.output});
-        return flags;
-    };
+Status compare_frames(const CompareFlags& flags) {
     ShotTable rows;
-    FrameWork work;
-    work.input = has_pattern(all.test) ? all.test : all.reference.path;
-    work.files = [&](int frame) -> Result<FrameWork::Files> {
-        const CompareFlags flags = of_frame(frame);
-        FrameWork::Files files{{flags.reference.path, flags.test}, {}};
-        if (!flags.mask.empty()) files.inputs.push_back(flags.mask);
-        if (!flags.output.empty()) files.outputs.push_back(flags.output);
-        return files;
-    };
-    const auto make = [&](int frame, bool) -> Result<Json> {
-        auto compared = compare_files(of_frame(frame));
-        if (!compared) return compared.error();
-        rows.add(frame, compared->comparison, compared->places);
-        return std::move(compared->report);
-    };
-    work.finish = [&] { return all.frames.report == "-" ? Status(Done{}) : write_text("-", rows.text()); };
-    return make_frames(all.frames, all.run, with_reports(std::move(work), all.run, make));
+    FrameWork work = work_of(files_of(flags), terminal(),
+                             [&](int frame, const ComparedFiles& compared) { rows.add(frame, compared); });
+    work.finish = [&] { return flags.frames.report == "-" ? Status(Done{}) : write_text("-", rows.text()); };
+    return make_frames(flags.frames, flags.run, std::move(work));
 }
 
 }  // namespace

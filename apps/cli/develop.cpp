@@ -30,8 +30,7 @@ struct DevelopVerbFlags {
     FrameFlags frames;
 };
 
-// Returns the report, which is written too where a file was asked for.
-Result<Json> develop_file(const DevelopVerbFlags& flags, const Lens& lens) {
+DevelopShot shot_of(const DevelopVerbFlags& flags) {
     DevelopShot shot;
     shot.source = flags.input.source(flags.camera);
     shot.look = flags.look.look();
@@ -43,44 +42,23 @@ Result<Json> develop_file(const DevelopVerbFlags& flags, const Lens& lens) {
     shot.output = flags.output;
     shot.existing = flags.overwrite.existing();
     shot.threads = flags.run.threads;
-    const auto made = develop_picture(shot, lens, flags.ocio.display(terminal()));
-    if (!made) return made.error();
-    return Json::parse(made->record);
+    return shot;
 }
 
 Status develop_one(const DevelopVerbFlags& flags, const Lens& lens) {
-    const auto report = develop_file(flags, lens);
-    if (!report) return report.error();
-    const bool is_kept = report->contains("skipped");
-    return is_kept || flags.run.json.empty() ? Status(Done{}) : write_report(*report, flags.run.json);
-}
-
-Status develop_frames(const DevelopVerbFlags& all, const Lens& lens) {
-    const auto of_frame = [&](int frame) {
-        DevelopVerbFlags flags = all;
-        put_frame(frame, {&flags.input.path, &flags.output});
-        return flags;
-    };
-    FrameWork work;
-    work.input = all.input.path;
-    work.keeps_what_is_there = all.overwrite.no_clobber || all.overwrite.update;
-    work.files = [&](int frame) -> Result<FrameWork::Files> {
-        const DevelopVerbFlags flags = of_frame(frame);
-        return FrameWork::Files{files_of(flags.input), {flags.output}};
-    };
-    const auto make = [&](int frame, bool again) {
-        DevelopVerbFlags flags = of_frame(frame);
-        if (again) flags.overwrite = {};
-        return develop_file(flags, lens);
-    };
-    return make_frames(all.frames, all.run, with_reports(std::move(work), all.run, make));
+    const auto made = develop_picture(shot_of(flags), lens, flags.ocio.display(terminal()));
+    if (!made) return made.error();
+    const bool is_kept = made->state == FrameRecord::State::Kept;
+    if (is_kept || flags.run.json.empty()) return Done{};
+    return write_report(Json::parse(made->record), flags.run.json);
 }
 
 Status develop_all(const DevelopVerbFlags& flags) {
     const auto lens = Lens::open(flags.look.look().lens);
     if (!lens) return lens.error();
     if (is_sequence(flags.frames, {flags.input.path}, flags.output, flags.run))
-        return develop_frames(flags, *lens);
+        return make_frames(flags.frames, flags.run,
+                           work_of(shot_of(flags), *lens, flags.ocio.display(terminal())));
     return develop_one(flags, *lens);
 }
 

@@ -37,10 +37,6 @@ void FrameFlags::add_to(Verb& verb) {
                 report);
 }
 
-FrameLoopSettings FrameFlags::loop() const {
-    return {.frames = frames, .missing = missing, .report_file = report == "-" ? "" : report};
-}
-
 std::vector<std::string> FrameFlags::given() const {
     std::vector<std::string> names;
     if (!frames.empty()) names.emplace_back("--frames");
@@ -73,25 +69,6 @@ bool is_sequence(const FrameFlags& frames, const std::vector<std::string>& input
     if (!run.json.empty() && !has_pattern(run.json))
         throw UsageError("--json of many frames needs #### or %04d in its name; --report takes them all");
     return true;
-}
-
-FrameWork with_reports(FrameWork work, const RunFlags& run,
-                       std::function<Result<Json>(int frame, bool again)> make) {
-    const std::string json = run.json;
-    if (!json.empty())
-        work.files = [json, files_of = std::move(work.files)](int frame) {
-            auto files = files_of(frame);
-            if (files) files->outputs.push_back(at_frame(json, frame));
-            return files;
-        };
-    work.make = [json, make = std::move(make)](int frame, bool again) -> Result<FrameRecord> {
-        const auto report = make(frame, again);
-        if (!report) return report.error();
-        if (!json.empty() && !report->contains("skipped"))
-            if (Status done = write_report(*report, at_frame(json, frame)); !done) return done.error();
-        return frame_record(report->dump(-1, ' ', false, Json::error_handler_t::replace));
-    };
-    return work;
 }
 
 FrameLoopHost terminal() {
@@ -134,7 +111,12 @@ Status make_frames(const FrameFlags& frames, const RunFlags& run, FrameWork work
     if (frames.missing == MissingFiles::Black && !work.black)
         return Error{ErrorCode::InvalidArgument,
                      "--missing black is for pictures that are made: fail or skip"};
-    FrameLoop loop(frames.loop(), std::move(work), loop_host(frames, run));
+    FrameLoopSettings settings{.frames = frames.frames,
+                               .missing = frames.missing,
+                               .report_file = frames.report == "-" ? "" : frames.report,
+                               .record_file = run.json,
+                               .keeps_records = never_replaces()};
+    FrameLoop loop(std::move(settings), std::move(work), loop_host(frames, run));
     if (Status planned = loop.plan(&run_files()); !planned) return planned;
     const Status done = loop.run();
     return ended(done, loop.frames(), loop.failed(), loop.failure());

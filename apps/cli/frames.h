@@ -23,8 +23,6 @@ struct FrameFlags {
 
     void add_to(Verb& verb);
     std::vector<std::string> given() const;
-    // A report on standard output is written by the host's frame_done.
-    FrameLoopSettings loop() const;
 };
 
 // Frames of a shot that failed while others may have been made. Exit code 6: outputs could not be written; 1:
@@ -47,9 +45,6 @@ void put_frame(int frame, const std::vector<std::string*>& paths);
 bool is_sequence(const FrameFlags& frames, const std::vector<std::string>& inputs, const std::string& output,
                  const RunFlags& run);
 
-// The same work, whose frames are made with a report each, which --json writes to a file of that frame.
-FrameWork with_reports(FrameWork work, const RunFlags& run,
-                       std::function<Result<Json>(int frame, bool again)> make);
 // Messages and cancelling on this program's terminal.
 FrameLoopHost terminal();
 // Messages and questions of the loop on this program's terminal.
@@ -58,8 +53,8 @@ FrameLoopHost loop_host(const FrameFlags& frames, const RunFlags& run);
 Status ended(const Status& done, const std::vector<int>& frames, const std::vector<int>& failed,
              std::optional<ErrorCode> why);
 
-// Makes all frames in order; a failing frame does not stop the others. Errors: those of the list and of
-// missing files, before any frame is made; Cancelled. Throws FramesFailed.
+// Makes all frames in order, each with its record for --json; a failing frame does not stop the others.
+// Errors: those of the list and of missing files, before any frame is made; Cancelled. Throws FramesFailed.
 Status make_frames(const FrameFlags& frames, const RunFlags& run, FrameWork work);
 
 }  // namespace petzval::cli

@@ -17,6 +17,7 @@ RunFiles& run_files() {
 }
 
 void never_replace() { g_never_replaces = true; }
+bool never_replaces() { return g_never_replaces; }
 
 bool is_left_alone(const std::string& path) {
     std::error_code missing;

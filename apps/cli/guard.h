@@ -13,6 +13,7 @@ RunFiles& run_files();
 
 // Applies --no-clobber from now on.
 void never_replace();
+bool never_replaces();
 // With --no-clobber and a file of that name: says that it is left alone.
 bool is_left_alone(const std::string& path);
 

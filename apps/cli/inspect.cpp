@@ -125,14 +125,8 @@ void describe_list(const char* heading, const std::vector<std::string>& lines, s
     for (const std::string& line : lines) out << "  " << one_line(in_flags(line)) << "\n";
 }
 
-struct Inspected {
-    Shot shot;
-    Inspection seen;
-    Json report;
-};
-
-std::string description(const Inspected& inspected, const InspectFlags& all) {
-    const auto& [shot, seen, report] = inspected;
+std::string description(const InspectedFile& inspected, const InspectFlags& all) {
+    const auto& [shot, seen] = inspected;
     const InputFlags& flags = all.input;
     std::ostringstream out;
     out << one_line(flags.path) << "\n  display window " << window_text(shot.place.display_window);
@@ -151,28 +145,16 @@ std::string description(const Inspected& inspected, const InspectFlags& all) {
     return printable(out.str());
 }
 
-Result<Inspected> look_into(const InspectFlags& flags) {
-    const Stopwatch watch;
-    ShotSource source = flags.input.source(flags.camera);
-    source.read.motion.wanted = true;  // to say which there are
-    auto shot = load_shot(source);
-    if (!shot) return shot.error();
-    if (flags.input.transfer && !shot->display_referred)
-        return Error{ErrorCode::InvalidArgument, "--transfer is for whole numbers, such as those of PNG; " +
-                                                     flags.input.path + " does not hold them"};
-    Inspection seen =
-        inspection_of(*shot, flags.input.depth_kind.value_or(DepthKind::Planar), flags.permissible_radius_px);
-    Json report = Json::parse(seen.record);
-    report["input"] = flags.input.path;
-    report["seconds"]["read"] = report["seconds"]["total"] = watch.seconds();
-    report["peak_memory_bytes"] = peak_memory_bytes();
-    return Inspected{std::move(*shot), std::move(seen), std::move(report)};
+InspectFile file_of(const InspectFlags& flags) {
+    InspectFile file{flags.input.source(flags.camera), flags.input.transfer, flags.permissible_radius_px};
+    file.source.read.motion.wanted = true;  // to say which there are
+    return file;
 }
 
 Status inspect(const InspectFlags& flags) {
-    const auto seen = look_into(flags);
+    const auto seen = inspect_file(file_of(flags), {.cancelled = terminal().cancelled});
     if (!seen) return seen.error();
-    return tell(description(*seen, flags), seen->report, flags.run.json);
+    return tell(description(*seen, flags), Json::parse(seen->seen.record), flags.run.json);
 }
 
 // World position of the camera: the point that becomes the origin if the matrix holds only rotations.
@@ -186,7 +168,7 @@ std::string place_of_camera(const FoundCamera& camera) {
 }
 
 // Values that may change over a shot, in the words of description().
-std::vector<Changes::Value> values_of(const Inspected& inspected) {
+std::vector<Changes::Value> values_of(const InspectedFile& inspected) {
     const Shot& shot = inspected.shot;
     const DynamicRange& range = inspected.seen.range;
     const auto found = [](const std::optional<FoundNumber>& number) {
@@ -214,28 +196,15 @@ std::vector<Changes::Value> values_of(const Inspected& inspected) {
             {"not finite", std::to_string(shot.non_finite_colour)}};
 }
 
-Status inspect_frames(const InspectFlags& all) {
-    const auto of_frame = [&](int frame) {
-        InspectFlags flags = all;
-        put_frame(frame, {&flags.input.path, &flags.input.read.depth_file});
-        return flags;
-    };
+Status inspect_frames(const InspectFlags& flags) {
     Changes changes;
-    FrameWork work;
-    work.input = all.input.path;
-    work.files = [&](int frame) -> Result<FrameWork::Files> {
-        return FrameWork::Files{files_of(of_frame(frame).input), {}};
-    };
-    const auto make = [&](int frame, bool) -> Result<Json> {
-        auto seen = look_into(of_frame(frame));
-        if (!seen) return seen.error();
-        changes.add(frame, values_of(*seen));
-        return std::move(seen->report);
-    };
+    FrameWork work = work_of(file_of(flags), terminal(), [&](int frame, const InspectedFile& seen) {
+        changes.add(frame, values_of(seen));
+    });
     work.finish = [&] {
-        return all.frames.report == "-" ? Status(Done{}) : write_text("-", printable(changes.text()));
+        return flags.frames.report == "-" ? Status(Done{}) : write_text("-", printable(changes.text()));
     };
-    return make_frames(all.frames, all.run, with_reports(std::move(work), all.run, make));
+    return make_frames(flags.frames, flags.run, std::move(work));
 }
 
 }  // namespace

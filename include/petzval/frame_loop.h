@@ -73,6 +73,9 @@ struct FrameLoopSettings {
     std::optional<MissingFiles> missing = {};
     std::string report_file = {};  // one line of JSON a frame; empty: none
     int retries = 0;               // of a frame that failed, but for what is wrong with its input
+    // One file of JSON for each frame that is made; the name holds a frame number. Empty: none.
+    std::string record_file = {};
+    bool keeps_records = false;  // a record file that exists is left alone
 };
 
 class PETZVAL_API FrameLoop {

@@ -39,6 +39,8 @@ private:
     int digits_ = 1;
 };
 
+// True if the path has one place for a frame number.
+PETZVAL_API bool has_frame_number(const std::string& path);
 // The path of a frame; one without a place for a number, or with two of them, as it is.
 PETZVAL_API std::string at_frame(const std::string& path, int frame);
 

@@ -1,6 +1,7 @@
 #include "petzval/shots/compare_files.h"
 
 #include "petzval/display_files.h"
+#include "petzval/frames.h"
 #include "petzval/place.h"
 #include "petzval/views.h"
 
@@ -109,6 +110,12 @@ struct Pictures {
     std::size_t non_finite = 0;
 };
 
+CompareFiles of_frame(CompareFiles files, int frame) {
+    for (std::string* path : {&files.reference.path, &files.test, &files.mask, &files.heat_map})
+        *path = at_frame(*path, frame);
+    return files;
+}
+
 void say(const FrameLoopHost& host, Say how, const std::string& line) {
     if (host.say) host.say(how, line);
 }
@@ -160,6 +167,26 @@ Result<ComparedFiles> compare_files(const CompareFiles& files, const FrameLoopHo
     record["seconds"]["total"] = watch.seconds();
     record["peak_memory_bytes"] = peak_memory_bytes();
     return ComparedFiles{*result, std::move(where->worst), sequence::as_text(record)};
+}
+
+FrameWork work_of(const CompareFiles& files, const FrameLoopHost& host,
+                  const std::function<void(int frame, const ComparedFiles&)>& compared) {
+    FrameWork work;
+    work.input = has_frame_number(files.test) ? files.test : files.reference.path;
+    work.files = [files](int frame) -> Result<FrameWork::Files> {
+        const CompareFiles of = of_frame(files, frame);
+        FrameWork::Files both{{of.reference.path, of.test}, {}};
+        if (!of.mask.empty()) both.inputs.push_back(of.mask);
+        if (!of.heat_map.empty()) both.outputs.push_back(of.heat_map);
+        return both;
+    };
+    work.make = [files, host, compared](int frame, bool) -> Result<FrameRecord> {
+        const auto result = compare_files(of_frame(files, frame), host);
+        if (!result) return result.error();
+        compared(frame, *result);
+        return frame_record(result->record);
+    };
+    return work;
 }
 
 }  // namespace petzval

@@ -1,5 +1,6 @@
 #include "petzval/shots/develop_shot.h"
 
+#include "petzval/frames.h"
 #include "petzval/names.h"
 #include "petzval/place.h"
 #include "petzval/session.h"
@@ -52,6 +53,11 @@ MadeWith made_with_of(const DevelopShot& settings) {
     if (!settings.display_space.empty()) made.add("ocio.working_space", settings.display_space);
     if (!settings.dither) made.add("develop.dither", "off");
     return made;
+}
+
+DevelopShot of_frame(DevelopShot settings, int frame) {
+    for (std::string* path : {&settings.source.path, &settings.output}) *path = at_frame(*path, frame);
+    return settings;
 }
 
 void say(const ShotRunHost& host, Say how, const std::string& line) {
@@ -110,6 +116,22 @@ Result<FrameRecord> develop_picture(const DevelopShot& settings, const Lens& len
     record["seconds"]["total"] = total.seconds();
     record["peak_memory_bytes"] = peak_memory_bytes();
     return frame_record(sequence::as_text(record));
+}
+
+FrameWork work_of(const DevelopShot& settings, const Lens& lens, const ShotRunHost& host) {
+    FrameWork work;
+    work.input = settings.source.path;
+    work.keeps_what_is_there = settings.existing != ExistingOutputs::Replace;
+    work.files = [settings](int frame) -> Result<FrameWork::Files> {
+        const DevelopShot of = of_frame(settings, frame);
+        return FrameWork::Files{files_of(of.source), {of.output}};
+    };
+    work.make = [settings, lens, host](int frame, bool again) {
+        DevelopShot of = of_frame(settings, frame);
+        if (again) of.existing = ExistingOutputs::Replace;
+        return develop_picture(of, lens, host);
+    };
+    return work;
 }
 
 }  // namespace petzval

@@ -67,9 +67,8 @@ private:
 FrameWork work_of(FocusTracking settings, FrameLoopHost host) {
     const auto tracking = std::make_shared<Tracking>(std::move(settings), std::move(host));
     const ShotSource& source = tracking->source();
-    const auto pattern = FramePattern::find(source.path);
     FrameWork work;
-    work.input = pattern && *pattern ? source.path : source.read.depth_file;
+    work.input = has_frame_number(source.path) ? source.path : source.read.depth_file;
     work.files = [tracking](int frame) -> Result<FrameWork::Files> {
         return FrameWork::Files{files_of(tracking->source(frame)), {}};
     };

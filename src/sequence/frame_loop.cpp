@@ -83,11 +83,13 @@ struct FrameLoop::State {
 
     Status find_frames();
     Status find_missing();
-    Status begin();
-    Status guard(RunFiles* files);
+    Status begin() const;
+    Status guard(RunFiles* known);
+    Result<FrameWork::Files> files(int frame) const;
+    Result<FrameRecord> make_with_record(int frame, bool again) const;
     Status open_report();
     Status make(int frame, std::size_t number);
-    Result<FrameRecord> made(int frame, const FrameWork::Files& files);
+    Result<FrameRecord> made(int frame, const FrameWork::Files& files) const;
     Result<FrameRecord> made_black(int frame, const FrameWork::Files& files);
     FrameRecord failure(int frame, const FrameWork::Files& files, const Error& error);
     void tell(const FrameRecord& record, std::size_t number, const FrameWork::Files& files);
@@ -124,9 +126,9 @@ Status FrameLoop::State::find_missing() {
     std::vector<int> missing;
     std::string example;
     for (const int frame : frames) {
-        const auto files = work.files(frame);
-        if (!files) return files.error();
-        const auto lacking = missing_files(files->inputs);
+        const auto of = files(frame);
+        if (!of) return of.error();
+        const auto lacking = missing_files(of->inputs);
         if (lacking.empty()) continue;
         missing.push_back(frame);
         if (example.empty()) example = lacking.front();
@@ -148,21 +150,42 @@ Status FrameLoop::State::find_missing() {
     return Done{};
 }
 
-Status FrameLoop::State::begin() {
+Status FrameLoop::State::begin() const {
     if (!work.begin) return Done{};
     std::vector<int> lit = frames;
     std::erase_if(lit, [&](int frame) { return contains(black, frame); });
     return work.begin(lit);
 }
 
+Result<FrameWork::Files> FrameLoop::State::files(int frame) const {
+    auto files = work.files(frame);
+    if (files && !settings.record_file.empty())
+        files->outputs.push_back(at_frame(settings.record_file, frame));
+    return files;
+}
+
+Result<FrameRecord> FrameLoop::State::make_with_record(int frame, bool again) const {
+    auto record = work.make(frame, again);
+    if (!record || record->state == FrameRecord::State::Kept || settings.record_file.empty()) return record;
+    const std::string path = at_frame(settings.record_file, frame);
+    const OutputState there =
+        state_of({path}, {}, settings.keeps_records ? ExistingOutputs::Keep : ExistingOutputs::Replace);
+    if (there.is_kept) {
+        say(Say::Note, there.why);
+        return record;
+    }
+    const Status done = write_text(path, finished_record(record->record, 2, host.in_words));
+    return done ? std::move(record) : done.error();
+}
+
 // The guard learns the frames' own names; nothing is written before it has agreed.
-Status FrameLoop::State::guard(RunFiles* files) {
+Status FrameLoop::State::guard(RunFiles* known) {
     RunFiles own;
-    RunFiles& all = files ? *files : own;
+    RunFiles& all = known ? *known : own;
     all.reads(work.input);
-    if (!files) all.writes(settings.report_file);
+    if (!known) all.writes(settings.report_file);
     for (const int frame : frames) {
-        const auto of = work.files(frame);
+        const auto of = files(frame);
         if (!of) return of.error();
         for (const std::string& path : of->inputs) all.reads(path);
         for (const std::string& path : of->outputs) all.writes(path);
@@ -188,14 +211,14 @@ Result<FrameRecord> FrameLoop::State::made_black(int frame, const FrameWork::Fil
     return record;
 }
 
-Result<FrameRecord> FrameLoop::State::made(int frame, const FrameWork::Files& files) {
+Result<FrameRecord> FrameLoop::State::made(int frame, const FrameWork::Files& files) const {
     const bool again = is_there(files) && !is_whole_picture(files.outputs.front());
     if (again) say(Say::Warning, files.outputs.front() + ": damaged or cut off; made again");
     if (host.around_frame) host.around_frame(true);
-    Result<FrameRecord> record = work.make(frame, again);
+    Result<FrameRecord> record = make_with_record(frame, again);
     for (int left = settings.retries; left > 0 && !record && may_pass(record.error().code) && !is_cancelled();
          --left)
-        record = work.make(frame, again);
+        record = make_with_record(frame, again);
     if (host.around_frame) host.around_frame(false);
     if (!record && record.error().code == ErrorCode::OutputFailed && is_there(files) &&
         is_whole_picture(files.outputs.front())) {
@@ -261,17 +284,17 @@ Status FrameLoop::State::keep(FrameRecord record) {
 
 Status FrameLoop::State::make(int frame, std::size_t number) {
     const sequence::Stopwatch watch;
-    const auto files = work.files(frame);
-    if (!files) return files.error();
-    const Result<FrameRecord> done = contains(black, frame) ? made_black(frame, *files) : made(frame, *files);
+    const auto of = files(frame);
+    if (!of) return of.error();
+    const Result<FrameRecord> done = contains(black, frame) ? made_black(frame, *of) : made(frame, *of);
     if (is_cancelled()) return Done{};
     // An output shared by all frames cannot be written for any of them.
-    if (!done && files->outputs.empty() && done.error().code == ErrorCode::OutputFailed) return done.error();
-    FrameRecord record = done ? *done : failure(frame, *files, done.error());
+    if (!done && of->outputs.empty() && done.error().code == ErrorCode::OutputFailed) return done.error();
+    FrameRecord record = done ? *done : failure(frame, *of, done.error());
     record.frame = frame;
     record.seconds = watch.seconds();
     warn_once(record);
-    tell(record, number, *files);
+    tell(record, number, *of);
     if (host.progress) host.progress(double(number + 1) / double(frames.size()));
     return keep(std::move(record));
 }
@@ -286,8 +309,9 @@ FrameLoop::~FrameLoop() = default;
 Status FrameLoop::plan(RunFiles* files) {
     State& s = *state_;
     s.is_planned = true;
-    for (const auto step : {&State::find_frames, &State::find_missing, &State::begin})
+    for (const auto step : {&State::find_frames, &State::find_missing})
         if (Status done = (s.*step)(); !done) return done;
+    if (Status begun = s.begin(); !begun) return begun;
     return s.guard(files);
 }
 

@@ -204,6 +204,11 @@ Result<std::vector<int>> FramePattern::frames_there() const {
     return frames;
 }
 
+bool has_frame_number(const std::string& path) {
+    const auto pattern = FramePattern::find(path);
+    return pattern && *pattern;
+}
+
 std::string at_frame(const std::string& path, int frame) {
     const auto pattern = FramePattern::find(path);
     return pattern && *pattern ? (*pattern)->path(frame) : path;

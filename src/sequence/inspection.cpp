@@ -1,6 +1,8 @@
 #include "petzval/shots/inspection.h"
 
+#include "petzval/frames.h"
 #include "petzval/records.h"
+#include "petzval/track.h"
 
 #include "sequence/record_json.h"
 
@@ -91,6 +93,45 @@ Inspection inspection_of(const Shot& shot, DepthKind kind, double permissible_ra
     record["non_finite"] = {{"colour", shot.non_finite_colour}, {"depth", shot.depth_report.non_finite}};
     seen.record = sequence::as_text(record);
     return seen;
+}
+
+Result<InspectedFile> inspect_file(const InspectFile& file, const Control& control) {
+    const sequence::Stopwatch watch;
+    auto shot = read_shot(file.source, control);
+    if (!shot) return shot.error();
+    if (file.transfer && !shot->display_referred)
+        return Error{ErrorCode::InvalidArgument,
+                     "read.transfer is for whole numbers, such as those of PNG; " + file.source.path +
+                         " does not hold them"};
+    Inspection seen = inspection_of(*shot, file.source.depth.kind, file.permissible_radius_px);
+    Json record = Json::parse(seen.record);
+    record["input"] = file.source.path;
+    record["seconds"]["read"] = record["seconds"]["total"] = watch.seconds();
+    record["peak_memory_bytes"] = peak_memory_bytes();
+    seen.record = sequence::as_text(record);
+    return InspectedFile{std::move(*shot), std::move(seen)};
+}
+
+FrameWork work_of(const InspectFile& file, const FrameLoopHost& host,
+                  const std::function<void(int frame, const InspectedFile&)>& inspected) {
+    const Control control{.cancelled = host.cancelled};
+    FrameWork work;
+    work.input = file.source.path;
+    const auto of_frame = [file](int frame) {
+        InspectFile of = file;
+        of.source = at_frame(std::move(of.source), frame);
+        return of;
+    };
+    work.files = [of_frame](int frame) -> Result<FrameWork::Files> {
+        return FrameWork::Files{files_of(of_frame(frame).source), {}};
+    };
+    work.make = [of_frame, control, inspected](int frame, bool) -> Result<FrameRecord> {
+        const auto file_of_frame = inspect_file(of_frame(frame), control);
+        if (!file_of_frame) return file_of_frame.error();
+        inspected(frame, *file_of_frame);
+        return frame_record(file_of_frame->seen.record);
+    };
+    return work;
 }
 
 std::string header_json(const Frame& header) {

@@ -6,6 +6,7 @@
 
 #include "base/temporary_folder.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include <gtest/gtest.h>
@@ -116,6 +117,56 @@ TEST_F(ShotSheetTest, AHeaderAndAShotTellTheSameParts) {
     const auto header = read_frame_header(at("in.0001.exr"));
     ASSERT_TRUE(header);
     EXPECT_NE(header_json(*header).find(R"("data_window":[0,0,16,16],"channels":[)"), std::string::npos);
+}
+
+TEST_F(ShotSheetTest, ShotsAreComparedFrameByFrame) {
+    CompareFiles files{.reference = source("in.####.exr"), .test = at("in.0001.exr")};
+    std::vector<double> errors;
+    const FrameWork work = work_of(
+        files, heard(), [&](int, const ComparedFiles& c) { errors.push_back(c.comparison.max_error); });
+    EXPECT_EQ(work.input, at("in.####.exr")) << "the test is one picture";
+    EXPECT_EQ(work.files(2)->inputs, (std::vector{at("in.0002.exr"), at("in.0001.exr")}));
+    ASSERT_TRUE(work.make(1, false));
+    ASSERT_TRUE(work.make(2, false));
+    EXPECT_EQ(errors, (std::vector{0.0, 0.25}));
+    EXPECT_FALSE(work.make(3, false)) << "another size";
+    EXPECT_EQ(errors.size(), 2u) << "only pictures that were compared";
+}
+
+TEST_F(ShotSheetTest, EachFrameIsInspected) {
+    InspectFile file{.source = source("in.####.exr")};
+    std::vector<int> widths;
+    const FrameWork work = work_of(file, heard(), [&](int, const InspectedFile& seen) {
+        widths.push_back(seen.shot.place.display_window.width());
+    });
+    ASSERT_TRUE(FrameLoop({.frames = {1, 3}}, work, {}).run());
+    EXPECT_EQ(widths, (std::vector{16, 32}));
+    file.source.path = at("in.0001.exr");
+    file.transfer = Transfer::Srgb;
+    EXPECT_EQ(inspect_file(file).error().code, ErrorCode::InvalidArgument) << "light has no transfer curve";
+}
+
+TEST_F(ShotSheetTest, RecordsOfFramesAreWrittenUnlessTheFrameOrTheRecordIsKept) {
+    DevelopShot shot{.source = source("in.####.exr"), .output = at("o.####.png")};
+    const auto develop = [&](bool keeps) {
+        const FrameLoopSettings loop{
+            .frames = {1, 2}, .record_file = at("r.####.json"), .keeps_records = keeps};
+        ASSERT_TRUE(FrameLoop(loop, work_of(shot, *Lens::open(shot.look.lens), {}), heard()).run());
+    };
+    develop(false);
+    EXPECT_TRUE(fs::exists(at("r.0001.json")) && fs::exists(at("r.0002.json")));
+    fs::remove(at("r.0001.json"));
+    shot.existing = ExistingOutputs::Keep;
+    develop(false);
+    EXPECT_FALSE(fs::exists(at("r.0001.json"))) << "nothing was made";
+    fs::remove(at("o.0002.png"));
+    const auto before = fs::last_write_time(at("r.0002.json"));
+    said.clear();
+    develop(true);
+    EXPECT_EQ(fs::last_write_time(at("r.0002.json")), before);
+    EXPECT_EQ(
+        std::count(said.begin(), said.end(), at("r.0002.json") + ": already there, left alone (run.keep)"),
+        1);
 }
 
 }  // namespace

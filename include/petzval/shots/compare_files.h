@@ -7,6 +7,7 @@
 #include "petzval/result.h"
 #include "petzval/shot.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -31,5 +32,10 @@ struct ComparedFiles {
 // Calls only `say` and `cancelled` of `host`. Errors: those of read_shot(); InvalidArgument if sizes
 // differ; OutputFailed; Cancelled.
 PETZVAL_API Result<ComparedFiles> compare_files(const CompareFiles& files, const FrameLoopHost& host = {});
+
+// Two shots frame by frame: paths of `files` may hold a frame number (frames.h). The work of a FrameLoop;
+// `compared` is called after each frame that could be compared. Errors of frames: those above.
+PETZVAL_API FrameWork work_of(const CompareFiles& files, const FrameLoopHost& host,
+                              const std::function<void(int frame, const ComparedFiles&)>& compared);
 
 }  // namespace petzval

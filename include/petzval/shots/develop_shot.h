@@ -36,4 +36,8 @@ struct DevelopShot {
 PETZVAL_API Result<FrameRecord> develop_picture(const DevelopShot& settings, const Lens& lens,
                                                 const ShotRunHost& host = {});
 
+// All frames of a shot: the paths of source and output hold a frame number (frames.h). The work of a
+// FrameLoop. Errors of frames: those above.
+PETZVAL_API FrameWork work_of(const DevelopShot& settings, const Lens& lens, const ShotRunHost& host = {});
+
 }  // namespace petzval

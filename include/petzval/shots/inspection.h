@@ -6,8 +6,11 @@
 #include "petzval/dynamic_range.h"
 #include "petzval/export.h"
 #include "petzval/files.h"
+#include "petzval/frame_loop.h"
+#include "petzval/result.h"
 #include "petzval/shot.h"
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -20,6 +23,25 @@ struct Inspection {
 };
 // kind: the meaning of the shot's depth. Blur radii up to permissible_radius_px count as sharp.
 PETZVAL_API Inspection inspection_of(const Shot& shot, DepthKind kind, double permissible_radius_px);
+
+// Reads a file and inspects it. `transfer`: the user's choice, which needs a display-referred file. The
+// record also has the seconds and the memory. Errors: those of read_shot(); InvalidArgument for a transfer
+// curve of scene-linear light.
+struct InspectFile {
+    ShotSource source;  // the kind of its depth holds for the inspection
+    std::optional<Transfer> transfer = {};
+    double permissible_radius_px = 1;
+};
+struct InspectedFile {
+    Shot shot;
+    Inspection seen;
+};
+PETZVAL_API Result<InspectedFile> inspect_file(const InspectFile& file, const Control& control = {});
+
+// All frames of a shot: paths hold a frame number (frames.h). The work of a FrameLoop; `inspected` is called
+// after each frame that could be read. Of `host`, only `cancelled` is called.
+PETZVAL_API FrameWork work_of(const InspectFile& file, const FrameLoopHost& host,
+                              const std::function<void(int frame, const InspectedFile&)>& inspected);
 
 // JSON of a file without its pixels (read_frame_header()): {"parts": […], "display_window": [x0, y0, x1, y1],
 // "data_window", "pixel_aspect", "views": […], "camera": {NAME: {"value", "origin"}}, "detected": […],
