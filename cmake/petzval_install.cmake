@@ -16,7 +16,9 @@ function(petzval_component target)
   endif()
   install(TARGETS ${target} EXPORT ${PC_PACKAGE} DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(EXPORT ${PC_PACKAGE} NAMESPACE petzval:: FILE ${PC_PACKAGE}-targets.cmake DESTINATION ${package_dir})
-  install(FILES ${PC_HEADERS} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/petzval)
+  if(PC_HEADERS)
+    install(FILES ${PC_HEADERS} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/petzval)
+  endif()
   list(JOIN PC_REQUIRES " " PC_REQUIRES)
   get_target_property(PC_ARCHIVE ${target} OUTPUT_NAME)
   if(NOT PC_ARCHIVE)
@@ -54,6 +56,8 @@ foreach(folder farm shots)
 endforeach()
 petzval_component(petzval_lib_scenes PACKAGE petzval-scenes HEADERS ${headers}/scene.h
                   REQUIRES petzval LIBS "-lembree3 ${petzval_gltf_links}" DESCRIPTION "Built-in scenes of petzval")
+petzval_component(petzval_lib_scene-files PACKAGE petzval-scene-files
+                  REQUIRES petzval-files petzval-scenes DESCRIPTION "Scenes of petzval written to files")
 petzval_component(petzval_lib_ocio PACKAGE petzval-ocio HEADERS ${headers}/ocio.h
                   REQUIRES petzval OpenColorIO DESCRIPTION "OpenColorIO displays for petzval")
 petzval_component(petzval_shared PACKAGE petzval-c HEADERS ${c_headers}

@@ -45,18 +45,9 @@ Status make_shot(const DefocusFlags& flags) {
 }  // namespace
 
 ShotRunHost picture_host(const DefocusFlags& flags) {
-    FrameLoopHost loop = terminal();
-    // Removes the bar from the screen before a line is printed.
-    const auto bar = std::make_shared<std::unique_ptr<ProgressLine>>();
-    loop.say = [bar](Say how, const std::string& line) {
-        bar->reset();
-        say(how, line);
-    };
-    ShotRunHost host = with_picture(std::move(loop), flags);
-    host.frame_progress = [bar, mode = flags.run.progress, quiet = flags.run.quiet](double share) {
-        if (!*bar) *bar = std::make_unique<ProgressLine>(mode, quiet, "defocus");
-        return (**bar)(share);
-    };
+    ShownProgress shown(flags.run, "defocus");
+    ShotRunHost host = with_picture(std::move(shown.host), flags);
+    host.frame_progress = std::move(shown.progress);
     return host;
 }
 

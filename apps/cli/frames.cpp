@@ -79,15 +79,23 @@ FrameLoopHost terminal() {
     return host;
 }
 
+ShownProgress::ShownProgress(const RunFlags& run, const std::string& stage) : host(terminal()) {
+    const auto bar = std::make_shared<std::unique_ptr<ProgressLine>>();
+    host.say = [bar](Say how, const std::string& line) {
+        bar->reset();
+        say(how, line);
+    };
+    progress = [bar, stage, mode = run.progress, quiet = run.quiet](double share) {
+        if (!*bar) *bar = std::make_unique<ProgressLine>(mode, quiet, stage);
+        return (**bar)(share);
+    };
+}
+
 FrameLoopHost loop_host(const FrameFlags& frames, const RunFlags& run) {
     FrameLoopHost host = terminal();
     if (frames.report == "-") host.frame_done = [](const FrameRecord& done) { return print(done.record); };
     if (run.progress != ProgressMode::Auto) {  // a line a frame says as much
-        const auto bar = std::make_shared<std::unique_ptr<ProgressLine>>();
-        host.progress = [bar, mode = run.progress, quiet = run.quiet](double share) {
-            if (!*bar) *bar = std::make_unique<ProgressLine>(mode, quiet, "frames");
-            (**bar)(share);
-        };
+        host.progress = [shown = ShownProgress(run, "frames")](double share) { shown.progress(share); };
     }
     host.hears_frames = run.verbose;
     host.around_frame = [verbose = run.verbose, quiet = run.quiet](bool begins) {
@@ -111,11 +119,12 @@ Status make_frames(const FrameFlags& frames, const RunFlags& run, FrameWork work
     if (frames.missing == MissingFiles::Black && !work.black)
         return Error{ErrorCode::InvalidArgument,
                      "--missing black is for pictures that are made: fail or skip"};
-    FrameLoopSettings settings{.frames = frames.frames,
-                               .missing = frames.missing,
-                               .report_file = frames.report == "-" ? "" : frames.report,
-                               .record_file = run.json,
-                               .keeps_records = never_replaces()};
+    FrameLoopSettings settings;
+    settings.frames = frames.frames;
+    settings.missing = frames.missing;
+    if (frames.report != "-") settings.report_file = frames.report;
+    settings.record_file = run.json;
+    settings.keeps_records = never_replaces();
     FrameLoop loop(std::move(settings), std::move(work), loop_host(frames, run));
     if (Status planned = loop.plan(&run_files()); !planned) return planned;
     const Status done = loop.run();

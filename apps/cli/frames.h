@@ -47,6 +47,12 @@ bool is_sequence(const FrameFlags& frames, const std::vector<std::string>& input
 
 // Messages and cancelling on this program's terminal.
 FrameLoopHost terminal();
+// The same for one picture, with a progress bar that is cleared before a message is printed.
+struct ShownProgress {
+    ShownProgress(const RunFlags& run, const std::string& stage);
+    FrameLoopHost host;
+    std::function<bool(double)> progress;
+};
 // Messages and questions of the loop on this program's terminal.
 FrameLoopHost loop_host(const FrameFlags& frames, const RunFlags& run);
 // Once a loop has ended: throws FramesFailed where some of its frames failed.

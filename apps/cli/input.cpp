@@ -82,13 +82,6 @@ std::size_t process_memory_bytes(int threads) {
     return limit.bytes;
 }
 
-Status fits_process(const std::string& what, std::size_t needed_bytes, int threads) {
-    const std::size_t limit = process_memory_bytes(threads);
-    if (limit == 0 || needed_bytes <= limit) return Done{};
-    return Error{ErrorCode::OutOfMemory, "read.max_memory_bytes is too little: " + what + " takes at least " +
-                                             std::to_string((needed_bytes >> 20) + 1) + "M"};
-}
-
 void InputFlags::check() const {
     for (const std::string& file : files_of(*this)) run_files().reads(file);
     if (const Status fine = petzval::check(source()); !fine) throw UsageError(in_flags(fine.error().message));

@@ -39,10 +39,6 @@ struct InputFlags : ShotSource {
 // and not --max-memory.
 std::size_t process_memory_bytes(int threads);
 
-// Before work whose memory is known: what takes more than the system lets this process take is refused.
-// what: such as "a picture of 640 x 360". Errors: OutOfMemory.
-Status fits_process(const std::string& what, std::size_t needed_bytes, int threads = 0);
-
 // read_shot() that an interrupt ends.
 Result<Shot> load_shot(const ShotSource& source);
 

@@ -1,14 +1,11 @@
 // petzval scene: the built-in test scenes.
-#include "petzval/scene.h"
+#include "petzval/shots/scene_files.h"
 
 #include "console/console.h"
-#include "console/interrupt.h"
-#include "console/progress.h"
 #include "console/report.h"
 #include "flags/camera.h"
 #include "flags/run_flags.h"
 #include "frames.h"
-#include "guard.h"
 #include "input.h"
 #include "output.h"
 #include "verbs.h"
@@ -35,17 +32,7 @@ struct MakeFlags {
 
     void add_to(Verb& verb);
     void check(const Verb& verb);
-    std::vector<std::string> outputs() const;
 };
-
-FoundCamera camera_of_scene(const Camera& camera, const std::string& origin) {
-    FoundCamera found;
-    found.focal_length_mm = FoundNumber{camera.focal_length_mm, origin};
-    found.sensor_width_mm = FoundNumber{camera.sensor_width_mm, origin};
-    found.f_number = FoundNumber{camera.f_number, origin};
-    found.focus_distance_m = FoundNumber{camera.focus_distance_m, origin};
-    return found;
-}
 
 const SceneSummary* find_scene(const std::string& name) {
     for (const SceneSummary& scene : scene_list())
@@ -113,13 +100,6 @@ void MakeFlags::add_to(Verb& verb) {
     run.add_log_to(verb, true);
 }
 
-std::vector<std::string> MakeFlags::outputs() const {
-    std::vector<std::string> files;
-    for (const std::string& file : {output, truth, layers})
-        if (!file.empty()) files.push_back(file);
-    return files;
-}
-
 // Computes the missing one of width and height.
 void put_size(std::optional<int> width, std::optional<int> height, SceneSettings& scene) {
     const auto other = [](int side, int of, int to) {
@@ -141,7 +121,7 @@ void MakeFlags::check(const Verb& verb) {
         for (const SceneSummary& known : scene_list()) names.push_back(known.name);
         throw UsageError("there is no scene " + name + "; there are " + listed(names));
     }
-    auto files = outputs();
+    auto files = outputs_of({.output = output, .truth = truth, .layers = layers});
     for (const std::string& file : files) {
         const auto kind = kind_of_output(file);
         if (!kind || *kind != FileKind::Exr) throw UsageError(file + ": the name must end in .exr");
@@ -168,142 +148,34 @@ void MakeFlags::check(const Verb& verb) {
             throw UsageError(file + ": the name of many frames holds #### or %04d");
 }
 
-Frame frame_of(const Place& place, Picture colour) {
-    Frame frame;
-    frame.place = place;
-    frame.has_alpha = true;
-    frame.colour = std::move(colour);
-    return frame;
+SceneFiles files_of(const MakeFlags& flags) {
+    SceneFiles files{.scene = flags.name, .settings = flags.scene};
+    files.camera = flags.camera.choice();
+    files.image_scale = flags.camera.image_scale;
+    files.output = flags.output;
+    files.truth = flags.truth;
+    files.layers = flags.layers;
+    files.existing = flags.overwrite.existing();
+    files.max_memory_bytes = process_memory_bytes(flags.scene.threads);
+    return files;
 }
 
-// The flags without outputs that exist under --no-clobber: these are neither rendered nor written.
-MakeFlags without_what_is_there(MakeFlags flags) {
-    for (std::string* path : {&flags.output, &flags.truth, &flags.layers})
-        if (is_left_alone(*path)) path->clear();
-    flags.scene.want_truth = !flags.truth.empty();
-    flags.scene.want_layers = !flags.layers.empty();
-    return flags;
+Status make_scene(const MakeFlags& flags) {
+    ShownProgress shown(flags.run, "scene");
+    SceneFiles files = files_of(flags);
+    files.settings.progress = shown.progress;
+    const auto made = make_scene_files(files, shown.host);
+    if (!made) return made.error();
+    return flags.run.json.empty() || made->record.empty()
+               ? Status(Done{})
+               : write_report(Json::parse(made->record), flags.run.json);
 }
 
-Status write_scene(const MakeFlags& flags, RenderedScene scene, const FoundCamera& camera) {
-    WriteOptions options;
-    options.overwrite = !flags.overwrite.no_clobber;
-    options.camera = camera;
-    options.camera.camera_from_world = scene.camera_from_world;
-    options.threads = flags.scene.threads;
-    const Rect display{0, 0, flags.scene.width, flags.scene.height};
-    const Place place{display, scene.data_window};
-    Frame sharp = frame_of(place, std::move(scene.colour));
-    sharp.depth = std::move(scene.depth_m);
-    sharp.motion = std::move(scene.motion);
-    if (!flags.output.empty())
-        if (Status done = write_exr(flags.output, sharp, options); !done) return done;
-    if (!flags.truth.empty())
-        if (Status done =
-                write_exr(flags.truth, frame_of(Place::whole(display), std::move(scene.truth)), options);
-            !done)
-            return done;
-    if (!flags.layers.empty()) {
-        Status done = write_deep_exr(flags.layers, place, scene.layers, options);
-        if (!done) return done;
-    }
-    for (const std::string* file : {&flags.output, &flags.truth, &flags.layers})
-        if (!file->empty()) note("wrote " + *file);
-    return Done{};
-}
-
-Status finish(const MakeFlags& flags, const FoundCamera& camera, ImageScale image_scale,
-              const Stopwatch& total, double compute_s) {
-    if (flags.run.json.empty()) return Done{};
-    Json report = new_report("scene make");
-    report["input"] = flags.name;
-    report["output"] = flags.outputs();
-    report["camera"] = camera_json(camera, image_scale);
-    report["parameters"] = {{"width", flags.scene.width},
-                            {"height", flags.scene.height},
-                            {"overscan", flags.scene.overscan_px},
-                            {"frame", flags.scene.frame},
-                            {"samples", flags.scene.truth_samples},
-                            {"pinhole_samples", flags.scene.samples},
-                            {"seed", flags.scene.seed},
-                            {"depth_blur_px", flags.scene.depth_blur_px},
-                            {"depth_bits", flags.scene.depth_bits},
-                            {"lit_in", flags.scene.lit_in_codes ? "codes" : "light"}};
-    if (!flags.scene.own_camera.empty()) report["parameters"]["scene_camera"] = flags.scene.own_camera;
-    if (flags.camera_at)
-        report["parameters"]["camera_at"] = {flags.camera_at->x, flags.camera_at->y, flags.camera_at->z};
-    if (flags.look_at)
-        report["parameters"]["look_at"] = {flags.look_at->x, flags.look_at->y, flags.look_at->z};
-    report["seconds"]["compute"] = compute_s;
-    report["seconds"]["write"] = total.seconds() - compute_s;
-    return write_report(finished(std::move(report), total), flags.run.json);
-}
-
-// Measured bytes of a pixel: sharp picture with depth 25 to 30, truth 17 more. What the scene itself and
-// hidden layers take is not known yet.
-Status fits_memory(const SceneSettings& scene) {
-    const std::size_t width = std::size_t(scene.width + 2 * scene.overscan_px),
-                      height = std::size_t(scene.height + 2 * scene.overscan_px);
-    return fits_process("a picture of " + std::to_string(width) + " x " + std::to_string(height),
-                        width * height * (25 + (scene.want_truth ? 16 : 0) + (scene.want_motion ? 16 : 0)),
-                        scene.threads);
-}
-
-Status make_scene(const MakeFlags& all) {
-    const Stopwatch total;
-    if (all.overwrite.skips(all.outputs())) return Done{};
-    const MakeFlags flags = without_what_is_there(all);
-    if (Status fits = fits_memory(flags.scene); !fits) return fits;
-    auto standing = StandingScene::build(flags.name, flags.scene);
-    if (!standing) return standing.error();
-    for (const std::string& line : standing->warnings()) warning(line);
-    const Camera& own = standing->camera();
-    const FoundCamera camera =
-        merged_camera(camera_of_scene(own, "scene " + flags.name), flags.camera.choice());
-    const ImageScale image_scale = flags.camera.image_scale.value_or(own.image_scale);
-    SceneSettings settings = flags.scene;
-    settings.camera = known_camera(camera, image_scale);
-    note(camera_line(camera, image_scale));
-    auto scene = [&] {
-        ProgressLine progress(flags.run.progress, flags.run.quiet, "scene");
-        settings.progress = [&](double share) { return progress(share); };
-        return standing->render(settings);
-    }();
-    if (!scene) return scene.error();
-    if (interrupted_by() != 0) return Error{ErrorCode::Cancelled, "interrupted"};
-    const double compute_s = total.seconds();
-    if (Status done = write_scene(flags, std::move(*scene), camera); !done) return done;
-    return finish(flags, camera, image_scale, total, compute_s);
-}
-
-Status make_scenes(const MakeFlags& all) {
-    const auto of_frame = [&](int number) {
-        MakeFlags flags = all;
-        flags.scene.frame = number;
-        put_frame(number, {&flags.output, &flags.truth, &flags.layers, &flags.run.json});
-        flags.run.progress = ProgressMode::Off;
-        return flags;
-    };
-    FrameWork work;
-    work.input = all.output;
-    work.keeps_what_is_there = all.overwrite.no_clobber;
-    work.files = [&](int number) -> Result<FrameWork::Files> {
-        const MakeFlags flags = of_frame(number);
-        FrameWork::Files files{{}, flags.outputs()};
-        if (!flags.run.json.empty()) files.outputs.push_back(flags.run.json);
-        return files;
-    };
-    work.make = [&](int number, bool) -> Result<FrameRecord> {
-        const Stopwatch watch;
-        const MakeFlags flags = of_frame(number);
-        if (Status done = make_scene(flags); !done) return done.error();
-        Json record = new_report("scene make");
-        record["input"] = flags.name;
-        record["output"] = flags.output;
-        record["seconds"]["total"] = watch.seconds();
-        return frame_record(report_text(record, -1));
-    };
-    return make_frames(all.frames, all.run, work);
+Status make_scenes(const MakeFlags& flags) {
+    SceneFiles files = files_of(flags);
+    RunFlags run = flags.run;
+    files.record_file.swap(run.json);
+    return make_frames(flags.frames, run, work_of(files, terminal()));
 }
 
 Status list_scenes(const RunFlags& run) {
@@ -318,7 +190,7 @@ Status list_scenes(const RunFlags& run) {
         scenes.push_back({{"name", scene.name},
                           {"purpose", scene.purpose},
                           {"frames", scene.frames},
-                          {"camera", camera_json(camera_of_scene(c, "scene " + scene.name), c.image_scale)}});
+                          {"camera", camera_json(found_camera(c, "scene " + scene.name), c.image_scale)}});
     }
     text += "points\n";
     Json points = Json::array();

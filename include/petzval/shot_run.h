@@ -175,6 +175,10 @@ struct MemoryLimit {
     // Empty if the message says nothing of that.
     PETZVAL_API std::string enough(const std::string& message) const;
 };
+// Refuses work of known size before it begins. what: such as "a picture of 640 x 360"; limit_bytes 0: no
+// limit. Errors: OutOfMemory.
+PETZVAL_API Status fits_memory(const std::string& what, std::size_t needed_bytes, std::size_t limit_bytes);
+
 // threads: those that will work, each of which needs a stack; 0: all.
 PETZVAL_API MemoryLimit memory_limit(int threads = 0);
 

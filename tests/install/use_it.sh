@@ -18,7 +18,7 @@ if [ -e "$stage/moved/bin/petzval" ]; then
 fi
 
 components=
-for component in files scenes ocio; do
+for component in files scenes scene-files ocio; do
     if [ -e "$stage"/moved/lib/*/libpetzval_$component.a ] || [ -e "$stage/moved/lib/libpetzval_$component.a" ]; then
         components="$components$component;"
     fi

@@ -1,6 +1,7 @@
 // petzval lens psf and lens table: what a lens makes of a point of light, as pictures.
 #include "petzval/lens_kernel.h"
 #include "petzval/lens_report.h"
+#include "petzval/shot_run.h"
 
 #include "console/console.h"
 #include "console/interrupt.h"
@@ -86,8 +87,9 @@ Result<std::optional<MountedLens>> prepared(PictureFlags& flags) {
 constexpr std::size_t kKernelBytes = 24, kPsfBytes = 35, kTableBytes = 39, kVolumeBytes = 50;
 
 Status fits_memory(const char* what, std::size_t width, std::size_t height, std::size_t bytes) {
-    return fits_process(std::string(what) + " of " + std::to_string(width) + " x " + std::to_string(height),
-                        bytes);
+    return petzval::fits_memory(
+        std::string(what) + " of " + std::to_string(width) + " x " + std::to_string(height), bytes,
+        process_memory_bytes(0));
 }
 
 struct PsfFlags : PictureFlags {

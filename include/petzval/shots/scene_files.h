@@ -1,0 +1,48 @@
+// A scene rendered into files, as petzval scene make does it: the sharp picture with depth and camera
+// numbers, the truth, the hidden surfaces; also many frames of a scene that moves. Component
+// petzval::scene-files, which joins petzval::scenes and petzval::files.
+#pragma once
+
+#include "petzval/camera.h"
+#include "petzval/export.h"
+#include "petzval/files.h"
+#include "petzval/frame_loop.h"
+#include "petzval/made_with.h"
+#include "petzval/result.h"
+#include "petzval/scene.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace petzval {
+
+struct SceneFiles {
+    std::string scene = {};                      // as StandingScene::build() takes it
+    SceneSettings settings = {};                 // its camera, want_truth and want_layers are not looked at
+    CameraChoice camera = {};                    // over the scene's own numbers
+    std::optional<ImageScale> image_scale = {};  // empty: the scene's own
+    std::string output = {}, truth = {}, layers = {};  // .exr; empty: not written
+    std::string record_file = {};                      // JSON of each frame; empty: none
+    // Keep: files that exist are neither rendered nor written. Update is not known here.
+    ExistingOutputs existing = ExistingOutputs::Replace;
+    std::size_t max_memory_bytes = 0;  // 0: no limit
+};
+
+// The names that are not empty, in the order of the struct.
+PETZVAL_API std::vector<std::string> outputs_of(const SceneFiles& files);
+
+// A scene's camera as one that was found; `origin`: such as "scene night".
+PETZVAL_API FoundCamera found_camera(const Camera& camera, const std::string& origin);
+
+// One frame: paths hold no frame number. The record is that of `petzval scene make --json`; of a frame that
+// is kept it is empty. Of `host`, only `say`, `cancelled` and `in_words` are called. Errors: those of
+// render_scene(); OutOfMemory if the pictures do not fit max_memory_bytes; OutputFailed, Cancelled.
+PETZVAL_API Result<FrameRecord> make_scene_files(const SceneFiles& files, const FrameLoopHost& host = {});
+
+// Many frames: each path holds a frame number (frames.h). The work of a FrameLoop. Errors of frames: those
+// above.
+PETZVAL_API FrameWork work_of(const SceneFiles& files, const FrameLoopHost& host);
+
+}  // namespace petzval

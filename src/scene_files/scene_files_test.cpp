@@ -1,0 +1,89 @@
+#include "petzval/shots/scene_files.h"
+
+#include "base/temporary_folder.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+namespace petzval {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SceneFilesTest : testing::Test {
+    SceneFilesTest() {
+        files.scene = "post";
+        files.settings.width = 32;
+        files.settings.height = 18;
+        files.settings.samples = 1;
+        files.settings.truth_samples = 1;
+        files.output = at("s.exr");
+        host.say = [this](Say, const std::string& line) { said.push_back(line); };
+    }
+    std::string at(const std::string& name) const { return folder / name; }
+    bool was_said(const std::string& line) const {
+        return std::find(said.begin(), said.end(), line) != said.end();
+    }
+
+    const test::TemporaryFolder folder;
+    SceneFiles files;
+    FrameLoopHost host;
+    std::vector<std::string> said;
+};
+
+TEST_F(SceneFilesTest, FilesHoldDepthCameraAndTruth) {
+    files.truth = at("t.exr");
+    files.layers = at("l.exr");
+    files.camera.f_number = 4;
+    ASSERT_TRUE(make_scene_files(files, host));
+    const auto sharp = read_frame(files.output);
+    ASSERT_TRUE(sharp);
+    EXPECT_EQ(sharp->depth.width(), 32);
+    EXPECT_EQ(sharp->camera.f_number->value, 4) << "the user's number, not the scene's";
+    EXPECT_TRUE(sharp->camera.camera_from_world);
+    ReadOptions flat;
+    flat.need_depth = false;
+    EXPECT_TRUE(read_frame(files.truth, flat));
+    EXPECT_GT(read_frame(files.layers)->deep.sample_count(), 0u);
+    for (const std::string& path : outputs_of(files)) EXPECT_TRUE(was_said("wrote " + path));
+}
+
+TEST_F(SceneFilesTest, ExistingFilesAreKeptAndTheOthersMade) {
+    ASSERT_TRUE(make_scene_files(files));
+    const auto before = fs::last_write_time(files.output);
+    files.existing = ExistingOutputs::Keep;
+    files.truth = at("t.exr");
+    const auto made = make_scene_files(files, host);
+    ASSERT_TRUE(made);
+    EXPECT_EQ(made->state, FrameRecord::State::Made);
+    EXPECT_EQ(fs::last_write_time(files.output), before);
+    EXPECT_TRUE(fs::exists(files.truth));
+    EXPECT_TRUE(was_said(files.output + ": already there, left alone (run.keep)"));
+    EXPECT_EQ(make_scene_files(files)->state, FrameRecord::State::Kept);
+}
+
+TEST_F(SceneFilesTest, PicturesBeyondTheMemoryAreRefusedBeforeTheyAreRendered) {
+    files.max_memory_bytes = 1 << 20;
+    files.settings.width = files.settings.height = 1000;
+    EXPECT_EQ(make_scene_files(files).error().code, ErrorCode::OutOfMemory);
+    EXPECT_FALSE(fs::exists(files.output));
+}
+
+TEST_F(SceneFilesTest, EachFrameHasItsFilesAndItsRecord) {
+    files.output = at("s.####.exr");
+    files.record_file = at("r.####.json");
+    ASSERT_TRUE(FrameLoop({.frames = {2, 3}}, work_of(files, host), {}).run());
+    for (const char* name : {"s.0002.exr", "s.0003.exr", "r.0002.json", "r.0003.json"})
+        EXPECT_TRUE(fs::exists(at(name))) << name;
+    const auto two = read_frame(at("s.0002.exr")), three = read_frame(at("s.0003.exr"));
+    ASSERT_TRUE(two && three);
+    const auto differs = [&](std::size_t i) { return two->depth.pixels()[i] != three->depth.pixels()[i]; };
+    bool moves = false;
+    for (std::size_t i = 0; i < two->depth.size(); ++i) moves = moves || differs(i);
+    EXPECT_TRUE(moves) << "the scene moves from frame to frame";
+}
+
+}  // namespace
+}  // namespace petzval
