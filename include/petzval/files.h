@@ -190,6 +190,10 @@ PETZVAL_API Status write_exr_planes(const std::string& path, const Place& place,
 PETZVAL_API Status write_deep_exr(const std::string& path, const Place& place, const DeepPicture& deep,
                                   const WriteOptions& options = {});
 
+// Refuses work of known size before it begins. what: such as "a picture of 640 x 360"; limit_bytes 0: no
+// limit. Errors: OutOfMemory, as reading has it for ReadOptions::max_memory_bytes.
+PETZVAL_API Status fits_memory(const std::string& what, std::size_t needed_bytes, std::size_t limit_bytes);
+
 // 8 or 16 bit PNG of display-referred bytes already encoded (see develop.h). channels: 1, 3 or 4,
 // interleaved.
 struct PngPixels {

@@ -163,6 +163,17 @@ private:
     std::unique_ptr<State> state_;
 };
 
+// The cost of one frame of a run, for those who divide a shot among processes.
+struct FrameCost {
+    int frame = 0;
+    double seconds = 0;
+    std::size_t peak_memory_bytes = 0;  // of the process
+};
+// Renders a frame into a file of its own in `folder`, which is removed, and writes nothing else of the run.
+// Errors: those of ShotRun::make().
+PETZVAL_API Result<FrameCost> measure_frame(Session& session, ShotRunSettings settings, int frame,
+                                            const std::string& folder, const ShotRunHost& host = {});
+
 // The memory that the system leaves to this process: by a memory cgroup (containers, farms), or ulimit -v.
 struct MemoryLimit {
     std::size_t bytes = 0;  // left for work; 0: no limit, or none below the machine's memory
@@ -175,10 +186,6 @@ struct MemoryLimit {
     // Empty if the message says nothing of that.
     PETZVAL_API std::string enough(const std::string& message) const;
 };
-// Refuses work of known size before it begins. what: such as "a picture of 640 x 360"; limit_bytes 0: no
-// limit. Errors: OutOfMemory.
-PETZVAL_API Status fits_memory(const std::string& what, std::size_t needed_bytes, std::size_t limit_bytes);
-
 // threads: those that will work, each of which needs a stack; 0: all.
 PETZVAL_API MemoryLimit memory_limit(int threads = 0);
 

@@ -17,6 +17,7 @@ namespace petzval {
 namespace {
 
 constexpr double kSecondsPerChunk = 60;
+constexpr std::size_t kLeastMemory = std::size_t(256) << 20;
 
 Error refused(const std::string& message) { return {ErrorCode::InvalidArgument, message}; }
 
@@ -47,6 +48,22 @@ const std::vector<std::pair<std::string, FarmSystem>>& farm_systems() {
                                                                          {"openjd", FarmSystem::OpenJd},
                                                                          {"opencue", FarmSystem::OpenCue}};
     return systems;
+}
+
+FarmShot farm_shot_in(const std::string& folder) {
+    namespace fs = std::filesystem;
+    FarmShot shot;
+    shot.folder = fs::absolute(folder).lexically_normal().string();
+    if (shot.folder.ends_with("/")) shot.folder.pop_back();
+    shot.name = farm_job_name(shot.folder);
+    shot.working_folder = fs::current_path().string();
+    return shot;
+}
+
+void set_cost(FarmShot& shot, double seconds_per_frame, std::size_t peak_memory_bytes) {
+    shot.seconds_per_frame = seconds_per_frame;
+    if (shot.memory_bytes == 0) shot.memory_bytes = std::max(peak_memory_bytes / 4 * 5, kLeastMemory);
+    shot.chunk = farm_chunk(seconds_per_frame, shot.frames.size());
 }
 
 std::string farm_job_name(const std::string& folder) {

@@ -107,5 +107,22 @@ TEST_F(FarmStateTest, AJobIsNamedAfterItsFolderAndItsProgramMayRun) {
     EXPECT_NE(fs::status(*path).permissions() & fs::perms::owner_exec, fs::perms::none);
 }
 
+TEST_F(FarmStateTest, CostDecidesChunkAndMemoryUnlessTheUserGaveIt) {
+    FarmShot job = farm_shot_in(shot.folder + "/./my job/");
+    EXPECT_EQ(job.folder, shot.folder + "/my job");
+    EXPECT_EQ(job.name, "my_job");
+    job.frames = std::vector<int>(100);
+    set_cost(job, 20, std::size_t(1) << 30);
+    EXPECT_EQ(job.chunk, 3) << "a minute";
+    EXPECT_EQ(job.memory_bytes, std::size_t(5) << 28) << "a quarter more than 1 GiB";
+    set_cost(job, 1000, std::size_t(1) << 40);
+    EXPECT_EQ(job.chunk, 1);
+    EXPECT_EQ(job.memory_bytes, std::size_t(5) << 28) << "what is given stays";
+    FarmShot small;
+    small.frames = {1};
+    set_cost(small, 1, 1000);
+    EXPECT_EQ(small.memory_bytes, std::size_t(256) << 20) << "the least";
+}
+
 }  // namespace
 }  // namespace petzval

@@ -4,7 +4,6 @@
 #include "petzval/output.h"
 #include "petzval/records.h"
 #include "petzval/shot.h"
-#include "petzval/shot_run.h"
 
 #include "sequence/record_json.h"
 

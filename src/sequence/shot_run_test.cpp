@@ -184,5 +184,21 @@ TEST(ShotRunSettings, WrongJsonIsRefusedByItsKey) {
     }
 }
 
+TEST_F(ShotRunTest, AMeasuredFrameLeavesNoFile) {
+    auto all = settings();
+    all.record_file = at("r.####.json");
+    fs::create_directory(at("job"));
+    Session session;
+    const auto cost = measure_frame(session, all, 3, at("job"));
+    ASSERT_TRUE(cost) << cost.error().message;
+    EXPECT_EQ(cost->frame, 3);
+    EXPECT_GT(cost->seconds, 0);
+    EXPECT_GT(cost->peak_memory_bytes, 1u << 20);
+    EXPECT_TRUE(fs::is_empty(at("job")));
+    EXPECT_FALSE(fs::exists(at("out.0003.exr")) || fs::exists(at("r.0003.json")));
+    fs::remove(at("in.0003.exr"));
+    EXPECT_FALSE(measure_frame(session, all, 3, at("job")));
+}
+
 }  // namespace
 }  // namespace petzval

@@ -3,7 +3,6 @@
 #include "petzval/shot_run.h"
 
 #include "console/console.h"
-#include "console/interrupt.h"
 #include "flags/defocus_flags.h"
 #include "guard.h"
 #include "verbs.h"
@@ -11,7 +10,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <sys/resource.h>
 #include <utility>
 
 namespace petzval::cli {
@@ -29,8 +27,6 @@ struct WriteFlags {
 
 constexpr const char* kExample =
     "petzval farm write --for slurm -o job -- beauty.####.exr -o out.####.exr --frames 1001-1100 --fstop 2";
-
-constexpr std::size_t kLeastMemory = std::size_t(256) << 20;
 
 // The words without `name` and, where it has one, its value.
 std::vector<std::string> without(const std::vector<std::string>& words, const std::string& name) {
@@ -75,42 +71,22 @@ std::vector<std::string> command_of(const WriteFlags& flags) {
     return words;
 }
 
-// Seconds and bytes of the middle frame, which is rendered into the job's folder.
+// The cost of the middle frame, which is rendered into the job's folder.
 Status measure(const WriteFlags& flags, FarmShot& shot) {
-    const int frame = shot.frames[shot.frames.size() / 2];
-    ShotRunSettings settings = flags.shot.settings();
-    const std::string kind = fs::path(settings.output).extension().string();
-    settings.output = shot.folder + "/measured.####" + kind;
-    settings.record_file.clear();
-    settings.save_look_file.clear();
-    settings.existing = ExistingOutputs::Replace;
-    Session session(flags.shot.session());
     ShotRunHost host;
-    host.cancelled = [] { return interrupted_by() != 0; };
-    ShotRun run(session, settings, host);
-    const auto start = std::chrono::steady_clock::now();
-    const auto made = run.make(frame);
-    if (!made) return made.error();
-    shot.seconds_per_frame = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    std::error_code ignored;
-    fs::remove(at_frame(settings.output, frame), ignored);
-    rusage used{};
-    getrusage(RUSAGE_SELF, &used);
-    // A quarter more than the peak of one frame, as frames differ.
-    const std::size_t measured = std::size_t(used.ru_maxrss) * 1024 / 4 * 5;
-    if (shot.memory_bytes == 0) shot.memory_bytes = std::max(measured, kLeastMemory);
-    shot.chunk = farm_chunk(shot.seconds_per_frame, shot.frames.size());
+    host.cancelled = terminal().cancelled;
+    Session session(flags.shot.session());
+    const int frame = shot.frames[shot.frames.size() / 2];
+    const auto cost = measure_frame(session, flags.shot.settings(), frame, shot.folder, host);
+    if (!cost) return cost.error();
+    set_cost(shot, cost->seconds, cost->peak_memory_bytes);
     note("frame " + std::to_string(frame) + ": " + plain(shot.seconds_per_frame, 3) + " s, so " +
          std::to_string(shot.chunk) + (shot.chunk == 1 ? " frame" : " frames") + " per process");
     return Done{};
 }
 
 Result<FarmShot> facts(const WriteFlags& flags) {
-    FarmShot shot;
-    shot.folder = fs::absolute(flags.folder).lexically_normal().string();
-    if (shot.folder.ends_with("/")) shot.folder.pop_back();
-    shot.name = farm_job_name(shot.folder);
-    shot.working_folder = fs::current_path().string();
+    FarmShot shot = farm_shot_in(flags.folder);
     shot.command = command_of(flags);
     shot.threads = flags.shot.run.threads;
     shot.memory_bytes = flags.shot.max_memory_bytes;

@@ -37,6 +37,12 @@ struct FarmFile {
     bool is_program = false;
 };
 
+// A shot without command and frames: the folder made absolute, the job's name, the current folder.
+PETZVAL_API FarmShot farm_shot_in(const std::string& folder);
+// Sets what the cost of one frame says: the seconds, the frames that one process makes, and, where
+// memory_bytes is 0, the memory: a quarter more than the peak, as frames differ, and at least 256 MiB.
+PETZVAL_API void set_cost(FarmShot& shot, double seconds_per_frame, std::size_t peak_memory_bytes);
+
 // A name for the job in this folder that all systems accept, made of the folder's name.
 PETZVAL_API std::string farm_job_name(const std::string& folder);
 
