@@ -3,7 +3,6 @@
 #include "petzval/shot_run.h"
 
 #include "console/console.h"
-#include "console/interrupt.h"
 #include "flags/fields.h"
 #include "guard.h"
 
@@ -97,10 +96,6 @@ ShotSource InputFlags::source(const CameraFlags& user) const {
     if (depth_range) source.depth.range_near = depth_range->low, source.depth.range_far = depth_range->high;
     source.camera = user.choice();
     return source;
-}
-
-Result<Shot> load_shot(const ShotSource& source) {
-    return read_shot(source, {.cancelled = [] { return interrupted_by() != 0; }});
 }
 
 }  // namespace petzval::cli

@@ -39,7 +39,4 @@ struct InputFlags : ShotSource {
 // and not --max-memory.
 std::size_t process_memory_bytes(int threads);
 
-// read_shot() that an interrupt ends.
-Result<Shot> load_shot(const ShotSource& source);
-
 }  // namespace petzval::cli

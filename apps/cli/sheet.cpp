@@ -31,16 +31,20 @@ struct SheetFlags {
     bool makes_video() const { return is_video(output); }
 };
 
-Status make_lens_sheet(SheetFlags& flags) {
+Status make_lens_sheet(const SheetFlags& flags) {
     if (flags.overwrite.skips({flags.output})) return Done{};
-    const LensViewSheet settings{.cell_width_px = flags.width_px.value_or(480),
-                                 .columns = flags.columns,
-                                 .captions = !flags.no_labels};
-    const auto sheet = flags.lenses.make(flags.input, settings, flags.develop, flags.run);
-    if (!sheet) return sheet.error();
-    const Status done = write_developed(
-        flags.output, sheet->view(), {.tone = ToneCurve::None, .dither = false, .threads = flags.run.threads},
-        !flags.overwrite.no_clobber);
+    LensViewFile file = flags.lenses.file(flags.input);
+    file.sheet.cell_width_px = flags.width_px.value_or(480);
+    file.sheet.columns = flags.columns;
+    file.sheet.captions = !flags.no_labels;
+    file.display = flags.develop;
+    file.output = flags.output;
+    file.overwrite = !flags.overwrite.no_clobber;
+    file.threads = flags.run.threads;
+    ShownProgress shown(flags.run, "sheet");
+    const Control control{.progress = shown.progress, .cancelled = shown.host.cancelled};
+    const auto warn = [&](const std::string& line) { shown.host.say(Say::Warning, line); };
+    const Status done = write_lens_view_sheet(file, control, warn);
     if (done) note("wrote " + flags.output);
     return done;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "petzval/develop.h"
+#include "petzval/display_files.h"
 #include "petzval/export.h"
 #include "petzval/image.h"
 #include "petzval/lens_kernel.h"
@@ -87,6 +88,41 @@ PETZVAL_API Result<Picture> lens_view_sheet(Session& session, Shot& shot, const 
                                             const LensViewSheet& sheet, const Control& control = {},
                                             const std::function<void(const LensView&)>& seen = {});
 
+// One picture of a shot's files through several lenses, written as a display picture.
+struct LensViewFile {
+    ShotSource source;
+    std::optional<PixelPosition> focus_pixel = {};
+    std::optional<WorldPoint> focus_point = {};
+    Look look = {};
+    // `develop` is that of `display`; a number that source.camera gives for the aperture is the f-number of
+    // all.
+    LensViewSheet sheet = {};
+    DisplayChoice display = {};
+    std::optional<Transfer> transfer = {};  // as the user gave it
+    std::string output = {};                // .png
+    bool overwrite = true;
+    int threads = 0;  // 0: all
+};
+// `warn` gets the warnings of the shot, then those of each lens, which begin with its name. Errors: those of
+// read_shot(), of focusing and of lens_view_sheet(); OutputFailed.
+PETZVAL_API Status write_lens_view_sheet(const LensViewFile& file, const Control& control,
+                                         const std::function<void(const std::string&)>& warn);
+
+// The lens on a camera. Numbers that are not given are the lens's own, also its format. So a focal length
+// alone mounts the lens, scaled, on the sensor that it was made for: in pixels its aberrations grow along.
+// With the sensor scaled by the same factor the kernel stays what it was. height_px: empty for 9/16 of the
+// width. Errors: those of own_camera().
+PETZVAL_API Result<LensMount> mounted_on(const Lens& lens, const CameraChoice& camera, int width_px,
+                                         std::optional<int> height_px = {});
+
+// Before a kernel, a texture or a volume is drawn and written: refuses what takes more than limit_bytes (0:
+// no limit). Errors: OutOfMemory; those of largest_disc_px() and most_texture_rows().
+PETZVAL_API Status lens_disc_fits(const Lens& lens, const LensMount& mount, double coc_radius_px, int size_px,
+                                  std::size_t limit_bytes);
+PETZVAL_API Status bokeh_texture_fits(const Lens& lens, const LensMount& mount,
+                                      const BokehTextureSettings& settings, std::size_t limit_bytes);
+PETZVAL_API Status bokeh_volume_fits(const BokehVolumeSettings& settings, std::size_t limit_bytes);
+
 // EXR files of floats; their attributes (petzval:lens, petzval:coc, …) hold all that a program needs to draw
 // with them (docs/reference/lens-files.md). Errors: those of write_exr_planes().
 PETZVAL_API Status write_lens_disc(const std::string& path, const LensDisc& disc, double coc_radius_px,
@@ -102,5 +138,8 @@ PETZVAL_API Status write_bokeh_volume(const std::string& path, const BokehVolume
 
 // A kernel for displays: its brightest channel is 1, its alpha 1.
 PETZVAL_API Picture exposed_to_white(Picture picture);
+// The same as a PNG; without a tone curve unless one is chosen. Errors: OutputFailed.
+PETZVAL_API Status write_lens_view(const std::string& path, Picture picture, const DisplayChoice& display,
+                                   bool overwrite);
 
 }  // namespace petzval

@@ -1,10 +1,11 @@
-// Kernels, bokeh textures and volumes as EXR files that say how they were made.
+// Kernels, bokeh textures and volumes as EXR files that say how they were made, and as PNG files.
 #include "petzval/files.h"
 #include "petzval/lens_report.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <thread>
 #include <utility>
 
 namespace petzval {
@@ -55,7 +56,60 @@ void add_mount(Attributes& attributes, const LensMount& mount) {
     attributes.emplace_back("petzval:sensorWidth", number(mount.camera.sensor_width_mm, 9));
 }
 
+// Measured bytes of a pixel: of a kernel while it is made, and of each kind of picture with its file.
+constexpr std::size_t kKernelBytes = 24, kDiscBytes = 35, kTextureBytes = 39, kVolumeBytes = 50;
+
+Status fits(const char* what, std::size_t width, std::size_t height, std::size_t bytes, std::size_t limit) {
+    return fits_memory(std::string(what) + " of " + std::to_string(width) + " x " + std::to_string(height),
+                       bytes, limit);
+}
+
 }  // namespace
+
+Result<LensMount> mounted_on(const Lens& lens, const CameraChoice& user, int width_px,
+                             std::optional<int> height_px) {
+    const auto own = own_camera(lens);
+    if (!own) return own.error();
+    LensMount mount;
+    mount.width_px = width_px;
+    mount.height_px = height_px.value_or(std::max(1, width_px * 9 / 16));
+    Camera& camera = mount.camera;
+    camera.focal_length_mm = user.focal_length_mm.value_or(own->focal_length_mm);
+    camera.f_number = user.f_number.value_or(own->f_number);
+    if (user.aperture_diameter_mm) camera.f_number = camera.focal_length_mm / *user.aperture_diameter_mm;
+    camera.sensor_width_mm = user.sensor_width_mm.value_or(own->sensor_width_mm);
+    camera.focus_distance_m = user.focus_distance_m.value_or(0);
+    camera.image_scale = user.image_scale;
+    return mount;
+}
+
+// The kernel is made whole, also for a smaller picture.
+Status lens_disc_fits(const Lens& lens, const LensMount& mount, double coc_radius_px, int size_px,
+                      std::size_t limit_bytes) {
+    const auto disc = largest_disc_px(lens, mount, coc_radius_px);
+    if (!disc) return disc.error();
+    const auto whole = std::size_t(*disc);
+    const auto side = size_px > 0 ? std::size_t(size_px) : whole;
+    return fits("a kernel", side, side, std::max(kKernelBytes * whole * whole, kDiscBytes * side * side),
+                limit_bytes);
+}
+
+// Each thread makes the kernel of a column.
+Status bokeh_texture_fits(const Lens& lens, const LensMount& mount, const BokehTextureSettings& settings,
+                          std::size_t limit_bytes) {
+    const auto most = most_texture_rows(lens, mount, settings);
+    if (!most) return most.error();
+    const auto rows = std::size_t(*most);
+    const auto columns = std::size_t(settings.columns);
+    const std::size_t kernels = std::thread::hardware_concurrency() * sizeof(Rgba) * 4 * rows * rows;
+    return fits("a table", columns, rows, kTextureBytes * columns * rows + kernels, limit_bytes);
+}
+
+Status bokeh_volume_fits(const BokehVolumeSettings& settings, std::size_t limit_bytes) {
+    const auto side = std::size_t(settings.side_px | 1);
+    const auto slices = std::size_t(settings.slices);
+    return fits("a volume", side, side * slices, kVolumeBytes * side * side * slices, limit_bytes);
+}
 
 Status write_lens_disc(const std::string& path, const LensDisc& disc, double coc_radius_px, double field_x,
                        double field_y, bool overwrite) {
@@ -122,6 +176,14 @@ Picture exposed_to_white(Picture picture) {
         w.a = 1;
     }
     return picture;
+}
+
+Status write_lens_view(const std::string& path, Picture picture, const DisplayChoice& display,
+                       bool overwrite) {
+    const Picture shown = exposed_to_white(std::move(picture));
+    DevelopSettings settings = display.settings(false, std::nullopt, 0);
+    if (!display.tone) settings.tone = ToneCurve::None;
+    return write_developed(path, shown.view(), settings, overwrite);
 }
 
 }  // namespace petzval

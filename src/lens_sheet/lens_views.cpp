@@ -1,4 +1,5 @@
 // One picture through several lenses.
+#include "petzval/display_files.h"
 #include "petzval/lens_facts.h"
 #include "petzval/lens_report.h"
 #include "petzval/place.h"
@@ -86,6 +87,30 @@ Result<Picture> lens_view_sheet(Session& session, Shot& shot, const Look& look, 
     }
     shot.camera.f_number = own;
     return contact_sheet(cells, sheet.columns);
+}
+
+Status write_lens_view_sheet(const LensViewFile& file, const Control& control,
+                             const std::function<void(const std::string&)>& warn) {
+    auto shot = read_shot(file.source, {.cancelled = control.cancelled});
+    if (!shot) return shot.error();
+    for (const std::string& line : shot->warnings) warn(line);
+    if (file.focus_pixel)
+        if (Status done = focus_on_pixel(*shot, *file.focus_pixel); !done) return done;
+    if (file.focus_point)
+        if (Status done = focus_on_point(*shot, *file.focus_point); !done) return done;
+    LensViewSheet settings = file.sheet;
+    const CameraChoice& user = file.source.camera;
+    if (!user.wide_open && (user.f_number || user.aperture_diameter_mm) && shot->camera.f_number)
+        settings.f_number = shot->camera.f_number->value;
+    settings.develop = file.display.settings(shot->display_referred, file.transfer, file.threads);
+    Session session({.threads = file.threads});
+    const auto sheet =
+        lens_view_sheet(session, *shot, file.look, settings, control, [&](const LensView& view) {
+            for (const std::string& line : view.warnings) warn(view.lens + ": " + line);
+        });
+    if (!sheet) return sheet.error();
+    const DevelopSettings shown{.tone = ToneCurve::None, .dither = false, .threads = file.threads};
+    return write_developed(file.output, sheet->view(), shown, file.overwrite);
 }
 
 }  // namespace petzval

@@ -1,9 +1,5 @@
 #include "lens/on_picture.h"
 
-#include "console/console.h"
-#include "console/interrupt.h"
-#include "console/progress.h"
-
 #include <utility>
 
 namespace petzval::cli {
@@ -43,27 +39,14 @@ void LensesOnPictureFlags::check(const Verb& verb, InputFlags& input) {
     focus.check(camera);
 }
 
-Result<Picture> LensesOnPictureFlags::make(const InputFlags& input, LensViewSheet sheet,
-                                           const DisplayChoice& display, const RunFlags& run) {
-    auto shot = load_shot(input.source(camera));
-    if (!shot) return shot.error();
-    for (const std::string& line : shot->warnings) warning(line);
-    if (focus.focus_at)
-        if (Status done = focus_on_pixel(*shot, *focus.focus_at); !done) return done.error();
-    if (focus.focus_point)
-        if (Status done = focus_on_point(*shot, *focus.focus_point); !done) return done.error();
-    sheet.lenses = lenses;
-    const CameraChoice choice = camera.choice();
-    if (!choice.wide_open && (choice.f_number || choice.aperture_diameter_mm) && shot->camera.f_number)
-        sheet.f_number = shot->camera.f_number->value;
-    sheet.develop = display.settings(shot->display_referred, input.transfer, run.threads);
-    Session session({.threads = run.threads});
-    ProgressLine progress(run.progress, run.quiet, "sheet");
-    const Control control{.progress = [&](double share) { return progress(share); },
-                          .cancelled = [] { return interrupted_by() != 0; }};
-    return lens_view_sheet(session, *shot, look.look(), sheet, control, [](const LensView& view) {
-        for (const std::string& line : view.warnings) warning(view.lens + ": " + line);
-    });
+LensViewFile LensesOnPictureFlags::file(const InputFlags& input) const {
+    LensViewFile file{.source = input.source(camera)};
+    file.focus_pixel = focus.focus_at;
+    file.focus_point = focus.focus_point;
+    file.look = look.look();
+    file.sheet.lenses = lenses;
+    file.transfer = input.transfer;
+    return file;
 }
 
 }  // namespace petzval::cli

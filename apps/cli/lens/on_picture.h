@@ -1,13 +1,11 @@
 // `sheet --lenses`: one picture through several lenses.
 #pragma once
 
-#include "petzval/display_files.h"
 #include "petzval/lens_report.h"
 
 #include "flags/camera.h"
 #include "flags/flags.h"
 #include "flags/look_flags.h"
-#include "flags/run_flags.h"
 #include "input.h"
 
 #include <string>
@@ -25,9 +23,8 @@ struct LensesOnPictureFlags {
     bool is_on() const { return !lenses.empty(); }
     // Throws UsageError for contradictions, and for flags of a blur where there are no lenses.
     void check(const Verb& verb, InputFlags& input);
-    // The sheet, display-linear; `sheet` holds what concerns the sheet alone.
-    Result<Picture> make(const InputFlags& input, LensViewSheet sheet, const DisplayChoice& display,
-                         const RunFlags& run);
+    // All that concerns the picture and its lenses, and not the sheet.
+    LensViewFile file(const InputFlags& input) const;
 };
 
 }  // namespace petzval::cli

@@ -1,7 +1,6 @@
 // petzval lens psf and lens table: what a lens makes of a point of light, as pictures.
 #include "petzval/lens_kernel.h"
 #include "petzval/lens_report.h"
-#include "petzval/shot_run.h"
 
 #include "console/console.h"
 #include "console/interrupt.h"
@@ -13,10 +12,9 @@
 #include "output.h"
 #include "verbs.h"
 
-#include <algorithm>
-#include <cmath>
+#include <functional>
 #include <memory>
-#include <thread>
+#include <utility>
 
 namespace petzval::cli {
 namespace {
@@ -57,107 +55,79 @@ struct PictureFlags : MountFlags {
     }
 };
 
-// For displays: the brightest channel just below white.
-Status write_view(const PictureFlags& flags, Picture picture) {
-    const Picture shown = exposed_to_white(std::move(picture));
-    DevelopSettings settings = flags.develop.settings(false, std::nullopt, 0);
-    if (!flags.develop.tone) settings.tone = ToneCurve::None;
-    return write_developed(flags.output, shown.view(), settings, !flags.overwrite.no_clobber);
-}
+// The picture that a verb draws, before it is written.
+struct Drawn {
+    std::string lens, warning = {};
+    Json report = {};                        // what is the verb's own in it
+    Picture view = {};                       // to be looked at
+    std::function<Status()> write_exr = {};  // the numbers
+};
 
-Status finish(const PictureFlags& flags, Json report, const LensMount& mount, const std::string& description,
-              const Stopwatch& watch) {
+// Mounts the lens, draws, writes and reports.
+Status make(PictureFlags& flags, const std::string& verb,
+            const std::function<Result<Drawn>(const MountedLens&)>& draw) {
+    const Stopwatch watch;
+    if (flags.overwrite.skips({flags.output})) return Done{};
+    const auto mounted = flags.open();
+    if (!mounted) return mounted.error();
+    auto drawn = draw(*mounted);
+    if (!drawn) return drawn.error();
+    note(drawn->lens + " (" + camera_text(mounted->mount.camera) + ")");
+    if (!drawn->warning.empty()) warning(drawn->warning);
+    const Status done = flags.is_png() ? write_lens_view(flags.output, std::move(drawn->view), flags.develop,
+                                                         !flags.overwrite.no_clobber)
+                                       : drawn->write_exr();
+    if (!done) return done;
     note("wrote " + flags.output);
     if (flags.run.json.empty()) return Done{};
+    Json report = new_report(verb);
+    report.update(drawn->report);
     report["output"] = flags.output;
-    report["lens"] = lens_json(flags.look.look(), description);
-    report["camera"] = mount_json(mount);
+    report["lens"] = lens_json(flags.look.look(), drawn->lens);
+    report["camera"] = mount_json(mounted->mount);
     return write_report(finished(std::move(report), watch), flags.run.json);
-}
-
-// The mounted lens of a picture, or nothing if there is nothing to do.
-Result<std::optional<MountedLens>> prepared(PictureFlags& flags) {
-    if (flags.overwrite.skips({flags.output})) return std::optional<MountedLens>();
-    auto mounted = flags.open();
-    if (!mounted) return mounted.error();
-    return std::optional<MountedLens>(std::move(*mounted));
-}
-
-// Measured bytes of a pixel: of a kernel while it is made, and of each verb's picture with its file.
-constexpr std::size_t kKernelBytes = 24, kPsfBytes = 35, kTableBytes = 39, kVolumeBytes = 50;
-
-Status fits_memory(const char* what, std::size_t width, std::size_t height, std::size_t bytes) {
-    return petzval::fits_memory(
-        std::string(what) + " of " + std::to_string(width) + " x " + std::to_string(height), bytes,
-        process_memory_bytes(0));
 }
 
 struct PsfFlags : PictureFlags {
     double coc_radius_px = 20;
     Interval field;
     int size_px = 0;
-
-    // The kernel is made whole, also for a smaller picture.
-    Status fits(const Lens& lens, const LensMount& mount) const {
-        const auto disc = largest_disc_px(lens, mount, coc_radius_px);
-        if (!disc) return disc.error();
-        const auto whole = std::size_t(*disc);
-        const auto side = size_px > 0 ? std::size_t(size_px) : whole;
-        return fits_memory("a kernel", side, side,
-                           std::max(kKernelBytes * whole * whole, kPsfBytes * side * side));
-    }
 };
 
-Status make_psf(PsfFlags& flags) {
-    const Stopwatch watch;
-    const auto mounted = prepared(flags);
-    if (!mounted) return mounted.error();
-    if (!*mounted) return Done{};
-    const auto& [mount, lens] = **mounted;
-    if (const Status fits = flags.fits(lens, mount); !fits) return fits.error();
+Result<Drawn> draw_psf(const PsfFlags& flags, const MountedLens& mounted) {
+    const auto& [mount, lens] = mounted;
+    const Status fits =
+        lens_disc_fits(lens, mount, flags.coc_radius_px, flags.size_px, process_memory_bytes(0));
+    if (!fits) return fits.error();
     auto disc = lens_point_spread(lens, mount, flags.coc_radius_px, flags.field.low, flags.field.high,
                                   flags.size_px, flags.raw);
     if (!disc) return disc.error();
-    note(disc->lens + " (" + camera_text(mount.camera) + ")");
+    Drawn drawn{disc->lens};
     if (disc->lost_share > 1e-3)
-        warning(plain(100 * disc->lost_share, 3) + " % of the light falls outside of --size " +
-                plain(flags.size_px));
-    Json report = new_report("lens psf");
-    report["defocus_px"] = flags.coc_radius_px;
-    report["field"] = {flags.field.low, flags.field.high};
-    report["size"] = disc->weights.width();
-    report["lost_share"] = disc->lost_share;
-    report["raw"] = flags.raw;
-    const Status done = flags.is_png()
-                            ? write_view(flags, std::move(disc->weights))
-                            : write_lens_disc(flags.output, *disc, flags.coc_radius_px, flags.field.low,
-                                              flags.field.high, !flags.overwrite.no_clobber);
-    if (!done) return done;
-    return finish(flags, std::move(report), mount, disc->lens, watch);
+        drawn.warning = plain(100 * disc->lost_share, 3) + " % of the light falls outside of --size " +
+                        plain(flags.size_px);
+    drawn.report = {{"defocus_px", flags.coc_radius_px},
+                    {"field", {flags.field.low, flags.field.high}},
+                    {"size", disc->weights.width()},
+                    {"lost_share", disc->lost_share},
+                    {"raw", flags.raw}};
+    if (flags.is_png()) drawn.view = std::move(disc->weights);
+    drawn.write_exr = [&flags, disc = std::make_shared<LensDisc>(std::move(*disc))] {
+        return write_lens_disc(flags.output, *disc, flags.coc_radius_px, flags.field.low, flags.field.high,
+                               !flags.overwrite.no_clobber);
+    };
+    return drawn;
 }
 
 struct TableFlags : PictureFlags {
     BokehTextureSettings table;
     bool even = false;
-
-    // Each thread makes the kernel of a column.
-    Status fits(const Lens& lens, const LensMount& mount) const {
-        const auto made = most_texture_rows(lens, mount, table);
-        if (!made) return made.error();
-        const auto rows = std::size_t(*made);
-        const auto columns = std::size_t(table.columns);
-        const std::size_t kernels = std::thread::hardware_concurrency() * sizeof(Rgba) * 4 * rows * rows;
-        return fits_memory("a table", columns, rows, kTableBytes * columns * rows + kernels);
-    }
 };
 
-Status make_table(TableFlags& flags) {
-    const Stopwatch watch;
-    const auto mounted = prepared(flags);
-    if (!mounted) return mounted.error();
-    if (!*mounted) return Done{};
-    const auto& [mount, lens] = **mounted;
-    if (const Status fits = flags.fits(lens, mount); !fits) return fits.error();
+Result<Drawn> draw_table(TableFlags& flags, const MountedLens& mounted) {
+    const auto& [mount, lens] = mounted;
+    const Status fits = bokeh_texture_fits(lens, mount, flags.table, process_memory_bytes(0));
+    if (!fits) return fits.error();
     flags.table.raw = flags.raw;
     flags.table.dense_near_focus = !flags.even;
     flags.table.cancelled = [] { return interrupted_by() != 0; };
@@ -167,17 +137,16 @@ Status make_table(TableFlags& flags) {
         return bokeh_texture(lens, mount, flags.table);
     }();
     if (!texture) return texture.error();
-    note(texture->lens + " (" + camera_text(mount.camera) + ")");
-    Json report = new_report("lens table");
-    report["columns"] = flags.table.columns;
-    report["rows"] = texture->energy.height();
-    report["rows_per_px"] = flags.table.rows_per_px;
-    report["coc_radius_px"] = texture->coc_radius_px;
-    const Status done = flags.is_png() ? write_view(flags, std::move(texture->view))
-                                       : write_bokeh_texture(flags.output, *texture, flags.table, mount,
-                                                             !flags.overwrite.no_clobber);
-    if (!done) return done;
-    return finish(flags, std::move(report), mount, texture->lens, watch);
+    Drawn drawn{texture->lens};
+    drawn.report = {{"columns", flags.table.columns},
+                    {"rows", texture->energy.height()},
+                    {"rows_per_px", flags.table.rows_per_px},
+                    {"coc_radius_px", texture->coc_radius_px}};
+    if (flags.is_png()) drawn.view = std::move(texture->view);
+    drawn.write_exr = [&flags, at = mount, texture = std::make_shared<BokehTexture>(std::move(*texture))] {
+        return write_bokeh_texture(flags.output, *texture, flags.table, at, !flags.overwrite.no_clobber);
+    };
+    return drawn;
 }
 
 struct VolumeFlags : PictureFlags {
@@ -185,29 +154,20 @@ struct VolumeFlags : PictureFlags {
     Interval field;
 };
 
-Status make_volume(VolumeFlags& flags) {
-    const Stopwatch watch;
-    const auto mounted = prepared(flags);
-    if (!mounted) return mounted.error();
-    if (!*mounted) return Done{};
-    const auto& [mount, lens] = **mounted;
-    const auto side = std::size_t(flags.volume.side_px | 1);
-    const auto slices = std::size_t(flags.volume.slices);
-    const Status fits = fits_memory("a volume", side, side * slices, kVolumeBytes * side * side * slices);
-    if (!fits) return fits.error();
+Result<Drawn> draw_volume(VolumeFlags& flags, const MountedLens& mounted) {
+    const auto& [mount, lens] = mounted;
+    if (Status fits = bokeh_volume_fits(flags.volume, process_memory_bytes(0)); !fits) return fits.error();
     flags.volume.field_x = flags.field.low;
     flags.volume.field_y = flags.field.high;
     auto volume = bokeh_volume(lens, mount, flags.volume);
     if (!volume) return volume.error();
-    note(volume->lens + " (" + camera_text(mount.camera) + ")");
-    Json report = new_report("lens volume");
-    report["coc_radius_px"] = volume->coc_radius_px;
-    report["size"] = volume->slices[0].width();
-    const Status done = flags.is_png()
-                            ? write_view(flags, stacked_slices(*volume))
-                            : write_bokeh_volume(flags.output, *volume, mount, !flags.overwrite.no_clobber);
-    if (!done) return done;
-    return finish(flags, std::move(report), mount, volume->lens, watch);
+    Drawn drawn{volume->lens};
+    drawn.report = {{"coc_radius_px", volume->coc_radius_px}, {"size", volume->slices[0].width()}};
+    if (flags.is_png()) drawn.view = stacked_slices(*volume);
+    drawn.write_exr = [&flags, at = mount, volume = std::make_shared<BokehVolume>(std::move(*volume))] {
+        return write_bokeh_volume(flags.output, *volume, at, !flags.overwrite.no_clobber);
+    };
+    return drawn;
 }
 
 bool shapes_the_pupil(const LookRow& row) {
@@ -240,7 +200,10 @@ void add_psf(Verb& lens, Action& chosen) {
     when_typed(verb, [flags, &verb, &chosen] {
         flags->check(verb);
         refuse_on_axis(*flags, flags->field);
-        chosen = [flags] { return make_psf(*flags); };
+        chosen = [flags] {
+            return make(*flags, "lens psf",
+                        [&](const MountedLens& mounted) { return draw_psf(*flags, mounted); });
+        };
     });
 }
 
@@ -265,7 +228,10 @@ void add_table(Verb& lens, Action& chosen) {
         flags->check(verb);
         if (flags->height_px)
             throw UsageError("--height has no effect in lens table, which is of the picture's middle");
-        chosen = [flags] { return make_table(*flags); };
+        chosen = [flags] {
+            return make(*flags, "lens table",
+                        [&](const MountedLens& mounted) { return draw_table(*flags, mounted); });
+        };
     });
 }
 
@@ -290,7 +256,10 @@ void add_volume(Verb& lens, Action& chosen) {
         if (flags->raw)
             throw UsageError("--raw has no effect in lens volume; lens psf and lens table have it");
         refuse_on_axis(*flags, flags->field);
-        chosen = [flags] { return make_volume(*flags); };
+        chosen = [flags] {
+            return make(*flags, "lens volume",
+                        [&](const MountedLens& mounted) { return draw_volume(*flags, mounted); });
+        };
     });
 }
 

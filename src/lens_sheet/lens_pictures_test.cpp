@@ -1,0 +1,86 @@
+#include "petzval/lens_report.h"
+
+#include "base/temporary_folder.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+namespace petzval {
+namespace {
+
+Lens opened(const std::string& name) {
+    LensChoice choice;
+    choice.name = name;
+    return Lens::open(choice).value();
+}
+
+TEST(MountedOn, NumbersThatAreNotGivenAreTheLensesOwn) {
+    const Lens lens = opened("tessar");
+    const Camera own = own_camera(lens).value();
+    CameraChoice choice;
+    const LensMount usual = mounted_on(lens, choice, 1600).value();
+    EXPECT_EQ(usual.camera.focal_length_mm, own.focal_length_mm);
+    EXPECT_EQ(usual.camera.sensor_width_mm, own.sensor_width_mm);
+    EXPECT_EQ(usual.height_px, 900) << "9/16 of the width";
+    choice.focal_length_mm = 80;
+    choice.aperture_diameter_mm = 10;
+    const LensMount scaled = mounted_on(lens, choice, 1600, 1200).value();
+    EXPECT_EQ(scaled.camera.f_number, 8) << "80 mm / 10 mm";
+    EXPECT_EQ(scaled.camera.sensor_width_mm, own.sensor_width_mm);
+    EXPECT_EQ(scaled.height_px, 1200);
+}
+
+TEST(LensMemory, TooLargePicturesAreRefusedAndNoLimitRefusesNothing) {
+    const Lens lens = opened("doublet");
+    const LensMount mount = mounted_on(lens, {}, 1920).value();
+    constexpr std::size_t kLittle = 1 << 20;
+    const auto refused = [](const Status& fits) {
+        return !fits && fits.error().code == ErrorCode::OutOfMemory;
+    };
+    EXPECT_TRUE(refused(lens_disc_fits(lens, mount, 500, 0, kLittle)));
+    EXPECT_TRUE(refused(lens_disc_fits(lens, mount, 500, 21, kLittle))) << "the kernel is made whole";
+    EXPECT_TRUE(lens_disc_fits(lens, mount, 500, 0, 0));
+    EXPECT_TRUE(lens_disc_fits(lens, mount, 5, 0, kLittle));
+    BokehTextureSettings texture;
+    texture.columns = 4096;
+    EXPECT_TRUE(refused(bokeh_texture_fits(lens, mount, texture, kLittle)));
+    EXPECT_TRUE(bokeh_texture_fits(lens, mount, texture, 0));
+    BokehVolumeSettings volume;
+    volume.slices = 4;
+    volume.side_px = 32;
+    EXPECT_TRUE(bokeh_volume_fits(volume, kLittle)) << "4 x 33 x 33 x 50 bytes";
+    volume.side_px = 128;
+    EXPECT_TRUE(refused(bokeh_volume_fits(volume, kLittle))) << "4 x 129 x 129 x 50 bytes";
+}
+
+TEST(LensViewFileTest, OneFileIsSeenThroughEachLens) {
+    const test::TemporaryFolder folder;
+    Frame frame;
+    frame.place = Place::whole({0, 0, 32, 16});
+    frame.colour = Picture(32, 16, Rgba{0.5f, 0.5f, 0.5f, 1});
+    frame.depth = Plane(32, 16, 3);
+    ASSERT_TRUE(write_exr(folder / "in.exr", frame));
+    LensViewFile file{.source = {.path = folder / "in.exr"}};
+    file.source.camera.focal_length_mm = 50;
+    file.source.camera.sensor_width_mm = 36;
+    file.source.camera.f_number = 1;
+    file.focus_pixel = PixelPosition{4, 4};
+    file.sheet.lenses = {"doublet", "tessar"};
+    file.sheet.cell_width_px = 32;
+    file.sheet.columns = 2;
+    file.sheet.captions = false;
+    file.output = folder / "sheet.png";
+    std::vector<std::string> said;
+    const auto warn = [&](const std::string& line) { said.push_back(line); };
+    const Status done = write_lens_view_sheet(file, {}, warn);
+    ASSERT_TRUE(done) << done.error().message;
+    EXPECT_GE(read_png(file.output)->width, 64);
+    const auto is_of_tessar = [](const std::string& line) { return line.starts_with("tessar: opens to"); };
+    EXPECT_TRUE(std::any_of(said.begin(), said.end(), is_of_tessar)) << "f/1 is wider than the lens";
+    file.sheet.lenses = {"none"};
+    EXPECT_FALSE(write_lens_view_sheet(file, {}, warn));
+}
+
+}  // namespace
+}  // namespace petzval
