@@ -13,10 +13,8 @@
 #include "verbs.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <memory>
-#include <numbers>
 #include <sstream>
 
 namespace petzval::cli {
@@ -93,16 +91,6 @@ void describe_depth(const Shot& shot, const InputFlags& flags, std::ostream& out
         << shot.colour.size() << " pixels without depth\n";
 }
 
-// Horizontal, of a lens focused at infinity.
-std::optional<FoundNumber> field_of_view(const FoundCamera& camera) {
-    if (!camera.focal_length_mm || !camera.sensor_width_mm) return camera.horizontal_fov_deg;
-    const double half_width = camera.sensor_width_mm->value / (2 * camera.focal_length_mm->value);
-    FoundNumber angle;
-    angle.value = 2 * std::atan(half_width) * 180 / std::numbers::pi;
-    angle.origin = "of the sensor's width at infinity";
-    return angle;
-}
-
 void describe_camera(const FoundCamera& camera, std::ostream& out) {
     const auto line = [&](const char* what, const std::optional<FoundNumber>& found, const char* unit,
                           const char* flag) {
@@ -115,7 +103,7 @@ void describe_camera(const FoundCamera& camera, std::ostream& out) {
     out << "camera\n";
     line("focal length    ", camera.focal_length_mm, " mm", "--focal-length");
     line("sensor width    ", camera.sensor_width_mm, " mm", "--sensor-width");
-    if (const auto angle = field_of_view(camera)) line("field of view   ", angle, " deg", "");
+    if (const auto angle = field_of_view_deg(camera)) line("field of view   ", angle, " deg", "");
     line("f-number        ", camera.f_number, "", "--fstop");
     line("focus distance  ", camera.focus_distance_m, " m", "--focus");
 }
@@ -157,14 +145,9 @@ Status inspect(const InspectFlags& flags) {
     return tell(description(*seen, flags), Json::parse(seen->seen.record), flags.run.json);
 }
 
-// World position of the camera: the point that becomes the origin if the matrix holds only rotations.
 std::string place_of_camera(const FoundCamera& camera) {
-    if (!camera.camera_from_world) return "none";
-    const auto& m = *camera.camera_from_world;
-    std::string text;
-    for (std::size_t i = 0; i < 3; ++i)
-        text += (i ? "," : "") + plain(-(m[12] * m[4 * i] + m[13] * m[4 * i + 1] + m[14] * m[4 * i + 2]), 4);
-    return text;
+    const auto at = position_of(camera);
+    return at ? plain(at->x, 4) + "," + plain(at->y, 4) + "," + plain(at->z, 4) : "none";
 }
 
 // Values that may change over a shot, in the words of description().

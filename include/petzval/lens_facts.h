@@ -25,6 +25,10 @@ struct LensSummary {
 PETZVAL_API std::vector<LensSummary> matching(const std::vector<LensSummary>& lenses,
                                               const std::vector<std::string>& words);
 
+enum class LensOrder { Shelf, Name, Year, FocalLength, FNumber };
+// The lenses in that order; Shelf: as they are. Those without the number or the year come last.
+PETZVAL_API std::vector<LensSummary> in_order(std::vector<LensSummary> lenses, LensOrder order);
+
 // Every lens that --lens knows by name: the ideal one, the curves, the prescriptions.
 PETZVAL_API std::vector<LensSummary> lens_list();
 

@@ -34,6 +34,10 @@ struct SessionSettings {
     std::string device = "cpu";
 };
 
+// The folder of a user's kernels: $PETZVAL_KERNEL_CACHE, otherwise petzval/kernels in the user's cache folder
+// ($XDG_CACHE_HOME, ~/.cache). Empty if the variable is "off" or there is no home folder.
+PETZVAL_API std::string default_kernel_cache_folder();
+
 // Applies what the lens of a look does to light besides blur: light lost towards the corners, then glare.
 // `picture` is already blurred. `rendered` gives its place in the frame and the camera; its pictures are not
 // used. Errors: those of check(look), add_falloff() and add_glare().

@@ -136,6 +136,10 @@ PETZVAL_API FoundCamera merged_camera(const FoundCamera& file, const CameraChoic
 // Errors: InvalidArgument naming every number that is missing: "no f-number; give camera.f_number".
 PETZVAL_API Result<Camera> complete_camera(const FoundCamera& found, ImageScale image_scale);
 
+// Horizontal field of view in degrees, of a lens focused at infinity: of focal length and sensor if both are
+// known, otherwise the file's.
+PETZVAL_API std::optional<FoundNumber> field_of_view_deg(const FoundCamera& found);
+
 // The same without errors: numbers that are missing are 0.
 PETZVAL_API Camera known_camera(const FoundCamera& found, ImageScale image_scale);
 
@@ -166,6 +170,9 @@ struct WorldPoint {
 // one in front of a camera that looks along -z, with a warning in shot.warnings. Errors: InvalidArgument
 // without a matrix, or for a point in the plane of the lens.
 PETZVAL_API Status focus_on_point(Shot& shot, WorldPoint point);
+
+// Position of the camera in the world: the point that becomes the origin if the matrix holds only rotations.
+PETZVAL_API std::optional<WorldPoint> position_of(const FoundCamera& found);
 
 // Sets the focus to the middle, in dioptres, of the range that is held sharp, where there is such a range and
 // nothing says the focus. Errors: InvalidArgument for a focus outside of the range.

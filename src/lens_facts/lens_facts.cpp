@@ -212,6 +212,20 @@ std::vector<LensSummary> matching(const std::vector<LensSummary>& lenses,
     return found;
 }
 
+std::vector<LensSummary> in_order(std::vector<LensSummary> lenses, LensOrder order) {
+    const auto number = [order](const LensSummary& lens) {
+        const double size = order == LensOrder::FNumber ? lens.f_number : lens.focal_length_mm;
+        return size > 0 ? size : INFINITY;
+    };
+    std::stable_sort(lenses.begin(), lenses.end(), [&](const LensSummary& a, const LensSummary& b) {
+        if (order == LensOrder::Name) return a.name < b.name;
+        if (order == LensOrder::Year)
+            return (a.year.empty() ? "~" : a.year) < (b.year.empty() ? "~" : b.year);
+        return order != LensOrder::Shelf && number(a) < number(b);
+    });
+    return lenses;
+}
+
 std::vector<LensSummary> lens_list() {
     std::vector<LensSummary> list{ideal_summary()};
     for (const std::string& name : kernel::curve_preset_names())

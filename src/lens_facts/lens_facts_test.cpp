@@ -96,5 +96,22 @@ TEST(LensFacts, ANearObjectIsReportedWithItsMagnification) {
     EXPECT_NEAR(facts->field.back().image_height_mm, 10, 0.05);  // with some distortion, stop on the lens
 }
 
+TEST(LensFacts, OrderedListsEndWithLensesWithoutTheNumber) {
+    std::vector<LensSummary> lenses(3);
+    lenses[0].name = "b", lenses[0].f_number = 4, lenses[0].year = "1902";
+    lenses[1].name = "c";  // no numbers
+    lenses[2].name = "a", lenses[2].f_number = 2, lenses[2].focal_length_mm = 50, lenses[2].year = "1896";
+    const auto names = [&](LensOrder order) {
+        std::string text;
+        for (const LensSummary& lens : in_order(lenses, order)) text += lens.name;
+        return text;
+    };
+    EXPECT_EQ(names(LensOrder::Shelf), "bca");
+    EXPECT_EQ(names(LensOrder::Name), "abc");
+    EXPECT_EQ(names(LensOrder::Year), "abc");
+    EXPECT_EQ(names(LensOrder::FNumber), "abc");
+    EXPECT_EQ(names(LensOrder::FocalLength), "abc");
+}
+
 }  // namespace
 }  // namespace petzval

@@ -2,11 +2,11 @@
 #include "petzval/look_json.h"
 #include "petzval/names.h"
 
+#include "base/user_folder.h"
 #include "base/whole_file.h"
 #include "optics/lens_text.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 
 namespace petzval {
@@ -60,15 +60,7 @@ Result<Look> read_look(const std::string& path) {
 }
 
 std::string preset_folder() {
-    const auto variable = [](const char* name) {
-        const char* value = std::getenv(name);
-        return std::string(value ? value : "");
-    };
-    if (const std::string own = variable("PETZVAL_PRESETS"); !own.empty()) return own;
-    if (const std::string config = variable("XDG_CONFIG_HOME"); !config.empty() && config[0] == '/')
-        return config + "/petzval/presets";
-    const std::string home = variable("HOME");
-    return home.empty() ? "" : home + "/.config/petzval/presets";
+    return user_folder("PETZVAL_PRESETS", "XDG_CONFIG_HOME", "/.config", "/petzval/presets");
 }
 
 Result<Look> read_preset(const std::string& name) {

@@ -1,5 +1,8 @@
 #include "session/mounted_lens.h"
 
+#include "petzval/session.h"
+
+#include "base/user_folder.h"
 #include "kernel/lenses/make_lens.h"
 #include "kernel/lenses/opened_lens.h"
 
@@ -7,6 +10,12 @@
 #include <set>
 
 namespace petzval {
+
+std::string default_kernel_cache_folder() {
+    const std::string folder =
+        user_folder("PETZVAL_KERNEL_CACHE", "XDG_CACHE_HOME", "/.cache", "/petzval/kernels");
+    return folder == "off" ? "" : folder;
+}
 
 kernel::Mount mount_of(const FrameRequest& request) {
     return {request.rendered.camera, request.rendered.place.display_window.width(),

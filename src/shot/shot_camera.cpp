@@ -64,6 +64,22 @@ FoundCamera merged_camera(const FoundCamera& file, const CameraChoice& user, dou
     return merged;
 }
 
+std::optional<FoundNumber> field_of_view_deg(const FoundCamera& found) {
+    if (!found.focal_length_mm || !found.sensor_width_mm) return found.horizontal_fov_deg;
+    const double half_width = found.sensor_width_mm->value / (2 * found.focal_length_mm->value);
+    return FoundNumber{2 * std::atan(half_width) * 180 / std::numbers::pi,
+                       "of the sensor's width at infinity"};
+}
+
+std::optional<WorldPoint> position_of(const FoundCamera& found) {
+    if (!found.camera_from_world) return std::nullopt;
+    const auto& m = *found.camera_from_world;
+    const auto along = [&](std::size_t row) {
+        return -(m[12] * m[4 * row] + m[13] * m[4 * row + 1] + m[14] * m[4 * row + 2]);
+    };
+    return WorldPoint{along(0), along(1), along(2)};
+}
+
 Camera known_camera(const FoundCamera& found, ImageScale image_scale) {
     return {value_of(found.focal_length_mm), value_of(found.sensor_width_mm), value_of(found.f_number),
             value_of(found.focus_distance_m), image_scale};

@@ -153,6 +153,23 @@ TEST(ShotCamera, ADistanceInSceneUnitsBecomesMetres) {
     EXPECT_DOUBLE_EQ(merged_camera(file, {.focus_distance_m = 3}, 0.01).focus_distance_m->value, 3);
 }
 
+TEST(ShotCamera, FieldOfViewAndPositionFollowFromTheFile) {
+    FoundCamera camera;
+    EXPECT_FALSE(field_of_view_deg(camera) || position_of(camera));
+    camera.horizontal_fov_deg = FoundNumber{40, "file"};
+    EXPECT_EQ(field_of_view_deg(camera)->value, 40);
+    camera.focal_length_mm = FoundNumber{18, ""};
+    camera.sensor_width_mm = FoundNumber{36, ""};
+    EXPECT_DOUBLE_EQ(field_of_view_deg(camera)->value, 90) << "2 atan(36 / 2 / 18)";
+    // Turned by 90 degrees about y after a move by (-1, -2, -3).
+    camera.camera_from_world = {0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, -3, -2, 1, 1};
+    const auto at = position_of(camera);
+    ASSERT_TRUE(at);
+    EXPECT_EQ(at->x, 1);
+    EXPECT_EQ(at->y, 2);
+    EXPECT_EQ(at->z, 3);
+}
+
 TEST_F(Shots, HiddenLayersAreCutToThePicturesWindow) {
     write_picture(folder / "hidden.exr", kPiece, 8);
     source.behind = folder / "hidden.exr";

@@ -3,7 +3,6 @@
 #include "petzval/session.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <utility>
 
 namespace petzval::cli {
@@ -198,22 +197,9 @@ void DefocusFlags::check_display() const {
     develop.refuse("is for display pictures: --view beauty or focus with -o FILE.png");
 }
 
-// $PETZVAL_KERNEL_CACHE; else where the XDG base directory specification puts caches.
-std::string DefocusFlags::default_kernel_cache() {
-    const auto variable = [](const char* name) {
-        const char* value = std::getenv(name);
-        return std::string(value ? value : "");
-    };
-    if (const std::string own = variable("PETZVAL_KERNEL_CACHE"); !own.empty()) return own;
-    if (const std::string caches = variable("XDG_CACHE_HOME"); !caches.empty() && caches[0] == '/')
-        return caches + "/petzval/kernels";
-    const std::string home = variable("HOME");
-    return home.empty() ? "off" : home + "/.cache/petzval/kernels";
-}
-
 std::string DefocusFlags::kernel_cache_folder() const {
-    const std::string folder = kernel_cache.value_or(default_kernel_cache());
-    return folder == "off" ? "" : folder;
+    if (!kernel_cache) return default_kernel_cache_folder();
+    return *kernel_cache == "off" ? "" : *kernel_cache;
 }
 
 SessionSettings DefocusFlags::session() const {

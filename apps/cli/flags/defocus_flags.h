@@ -51,9 +51,8 @@ struct DefocusFlags {
     void add_to(Verb& verb);
     // Adds the flags a window uses: input, look, display.
     void add_shown_to(Verb& verb);
-    void check(const Verb& verb);  // throws UsageError for what is missing or contradicts
-    void check_shown();            // the same for those of add_shown_to()
-    static std::string default_kernel_cache();
+    void check(const Verb& verb);             // throws UsageError for what is missing or contradicts
+    void check_shown();                       // the same for those of add_shown_to()
     std::string kernel_cache_folder() const;  // empty: none
     SessionSettings session() const;
     // The flags as settings of a run, of many frames or of one picture.

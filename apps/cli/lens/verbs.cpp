@@ -46,7 +46,6 @@ std::string wrapped(const std::string& text, const std::string& indent, std::siz
     return line.empty() ? out : out + indent + line + "\n";
 }
 
-enum class LensOrder { Shelf, Name, Year, FocalLength, FNumber };
 const NameTable<LensOrder> kOrders{{"shelf", LensOrder::Shelf},
                                    {"name", LensOrder::Name},
                                    {"year", LensOrder::Year},
@@ -59,27 +58,12 @@ struct ListFlags {
     RunFlags run;
 };
 
-// Lenses without the number come last.
-void sort(std::vector<LensSummary>& lenses, LensOrder order) {
-    const auto number = [order](const LensSummary& lens) {
-        const double size = order == LensOrder::FNumber ? lens.f_number : lens.focal_length_mm;
-        return size > 0 ? size : INFINITY;
-    };
-    std::stable_sort(lenses.begin(), lenses.end(), [&](const LensSummary& a, const LensSummary& b) {
-        if (order == LensOrder::Name) return a.name < b.name;
-        if (order == LensOrder::Year)
-            return (a.year.empty() ? "~" : a.year) < (b.year.empty() ? "~" : b.year);
-        return order != LensOrder::Shelf && number(a) < number(b);
-    });
-}
-
 Status list_lenses(const ListFlags& flags) {
     std::string text;
-    std::vector<LensSummary> lenses = matching(lens_list(), flags.words);
+    const std::vector<LensSummary> lenses = in_order(matching(lens_list(), flags.words), flags.order);
     if (lenses.empty())
         return Error{ErrorCode::InvalidArgument,
                      "no lens matches " + joined(flags.words) + "; petzval lens list names them all"};
-    sort(lenses, flags.order);
     for (const LensSummary& lens : lenses) {
         const std::string size = lens.focal_length_mm > 0
                                      ? plain(lens.focal_length_mm, 4) + " mm f/" + plain(lens.f_number, 3)
