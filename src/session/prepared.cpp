@@ -153,13 +153,14 @@ PreparedFrame::PreparedFrame(const FrameRequest& request, const Radii& radii, do
         repaired_layers_.push_back(finite_picture(layer.colour, *request.workers));
         samples.layers.back().colour = repaired_layers_.back();
     }
-    samples.coc_px = spare.coc_px = radii.of(depth_or_radii(request.rendered), *request.workers);
-    take_samples(request, radii, lens_reach_px);
+    const View<const float> depth = depth_or_radii(request.rendered);
+    samples.coc_px = spare.coc_px = radii.of(depth, *request.workers);
+    take_samples(request, depth, radii, lens_reach_px);
     note_radii();
     points_ = drawable_points(
         request.rendered, [&](float depth_m) { return radii(depth_m); }, warnings);
     samples.points = points_;
-    if (!has_radii(request.rendered)) samples.depth_m = depth_or_radii(request.rendered);
+    if (!has_radii(request.rendered)) samples.depth_m = depth;
     view.window.open_edges = open_edges(request);
     place_in_field(request);
     view.lens.radius_at_infinity_px = radii.at_infinity_px();
@@ -182,13 +183,14 @@ void PreparedFrame::take_options(const FrameRequest& request) {
         options.own = engine::ReferenceOwn{request.look.pupil_points, request.look.seed};
 }
 
-void PreparedFrame::take_samples(const FrameRequest& request, const Radii& radii, double lens_reach_px) {
+void PreparedFrame::take_samples(const FrameRequest& request, View<const float> depth, const Radii& radii,
+                                 double lens_reach_px) {
     engine::Samples& seen = view.samples;
     const engine::StatedDepth meaning = has_radii(request.rendered)
                                             ? engine::StatedDepth(engine::StatedRadii{radii})
                                             : engine::StatedDepth(engine::StatedMetres{radii});
-    const engine::StatedPicture stated{seen.colour, depth_or_radii(request.rendered), request.rendered.deep,
-                                       request.rendered.behind, meaning};
+    const engine::StatedPicture stated{seen.colour, depth, request.rendered.deep, request.rendered.behind,
+                                       meaning};
     samples_ = engine::all_samples(stated, *request.workers);
     plate_ = engine::back_picture(stated, *request.workers);
     const bool all = request.view == ScatterView::Layers || request.view == ScatterView::Hidden;

@@ -46,7 +46,8 @@ public:
     std::vector<std::string> warnings;
 
 private:
-    void take_samples(const FrameRequest& request, const Radii& radii, double lens_reach_px);
+    void take_samples(const FrameRequest& request, View<const float> depth, const Radii& radii,
+                      double lens_reach_px);
     void note_radii();
     void place_in_field(const FrameRequest& request);
     void take_options(const FrameRequest& request);
