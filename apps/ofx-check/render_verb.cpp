@@ -60,6 +60,10 @@ std::string context_of(const std::string& word) {
     return word == "filter" ? ofx::kContextFilter : word;
 }
 
+std::string no_parameter(const std::string& name, const std::string& value) {
+    return "the plug-in has no parameter " + name + " that takes '" + value + "'";
+}
+
 }  // namespace
 
 std::string render_picture(const Setup& setup, const RenderJob& job) {
@@ -76,8 +80,7 @@ std::string render_picture(const Setup& setup, const RenderJob& job) {
     auto effect = stage.create(cast);
     if (!effect) return stage.problem();
     for (const auto& [name, value] : setup.params)
-        if (!set_param(*effect, name, value))
-            return "the plug-in has no parameter " + name + " that takes '" + value + "'";
+        if (!set_param(*effect, name, value)) return no_parameter(name, value);
     FrameRequest request;
     request.time = job.time;
     request.scale = {job.scale, job.scale};
