@@ -112,7 +112,7 @@ PETZVAL_API Status write_lens_view_sheet(const LensViewFile& file, const Control
 // alone mounts the lens, scaled, on the sensor that it was made for: in pixels its aberrations grow along.
 // With the sensor scaled by the same factor the kernel stays what it was. height_px: empty for 9/16 of the
 // width. Errors: those of own_camera().
-PETZVAL_API Result<LensMount> mounted_on(const Lens& lens, const CameraChoice& camera, int width_px,
+PETZVAL_API Result<LensMount> mounted_on(const Lens& lens, const CameraChoice& choice, int width_px,
                                          std::optional<int> height_px = {});
 
 // Before a kernel, a texture or a volume is drawn and written: refuses what takes more than limit_bytes (0:

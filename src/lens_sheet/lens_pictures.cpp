@@ -43,7 +43,8 @@ public:
 private:
     void add(const std::string& channel, const Picture& picture, float Rgba::*which) {
         Plane plane = Plane::uninitialised(picture.width(), picture.height());
-        for (std::size_t i = 0; i < plane.size(); ++i) plane.pixels()[i] = picture.pixels()[i].*which;
+        std::transform(picture.pixels(), picture.pixels() + picture.size(), plane.pixels(),
+                       [which](const Rgba& light) { return light.*which; });
         add(channel, std::move(plane));
     }
     std::vector<std::pair<std::string, Plane>> kept_;
@@ -66,7 +67,7 @@ Status fits(const char* what, std::size_t width, std::size_t height, std::size_t
 
 }  // namespace
 
-Result<LensMount> mounted_on(const Lens& lens, const CameraChoice& user, int width_px,
+Result<LensMount> mounted_on(const Lens& lens, const CameraChoice& choice, int width_px,
                              std::optional<int> height_px) {
     const auto own = own_camera(lens);
     if (!own) return own.error();
@@ -74,12 +75,12 @@ Result<LensMount> mounted_on(const Lens& lens, const CameraChoice& user, int wid
     mount.width_px = width_px;
     mount.height_px = height_px.value_or(std::max(1, width_px * 9 / 16));
     Camera& camera = mount.camera;
-    camera.focal_length_mm = user.focal_length_mm.value_or(own->focal_length_mm);
-    camera.f_number = user.f_number.value_or(own->f_number);
-    if (user.aperture_diameter_mm) camera.f_number = camera.focal_length_mm / *user.aperture_diameter_mm;
-    camera.sensor_width_mm = user.sensor_width_mm.value_or(own->sensor_width_mm);
-    camera.focus_distance_m = user.focus_distance_m.value_or(0);
-    camera.image_scale = user.image_scale;
+    camera.focal_length_mm = choice.focal_length_mm.value_or(own->focal_length_mm);
+    camera.f_number = choice.f_number.value_or(own->f_number);
+    if (choice.aperture_diameter_mm) camera.f_number = camera.focal_length_mm / *choice.aperture_diameter_mm;
+    camera.sensor_width_mm = choice.sensor_width_mm.value_or(own->sensor_width_mm);
+    camera.focus_distance_m = choice.focus_distance_m.value_or(0);
+    camera.image_scale = choice.image_scale;
     return mount;
 }
 

@@ -96,6 +96,17 @@ Json parameters_of(const SceneSettings& scene) {
     return json;
 }
 
+// Without the seconds.
+Json record_of(const SceneFiles& files, const FoundCamera& camera, ImageScale image_scale) {
+    Json record = Json::parse(empty_record("scene make"));
+    record["input"] = files.scene;
+    record["output"] = outputs_of(files);
+    record["camera"] = Json::parse(record_of_camera(camera, image_scale));
+    record["parameters"] = parameters_of(files.settings);
+    record["peak_memory_bytes"] = peak_memory_bytes();
+    return record;
+}
+
 SceneFiles of_frame(SceneFiles files, int frame) {
     files.settings.frame = frame;
     for (std::string* path : {&files.output, &files.truth, &files.layers, &files.record_file})
@@ -136,46 +147,41 @@ FoundCamera found_camera(const Camera& camera, const std::string& origin) {
     return found;
 }
 
-Result<FrameRecord> make_scene_files(const SceneFiles& asked, const FrameLoopHost& host) {
+Result<FrameRecord> make_scene_files(const SceneFiles& files, const FrameLoopHost& host) {
     const Stopwatch total;
     FrameRecord made;
-    made.output = asked.output;
-    if (are_kept(outputs_of(asked), asked, host)) {
+    made.output = files.output;
+    if (are_kept(outputs_of(files), files, host)) {
         made.state = FrameRecord::State::Kept;
         return made;
     }
-    const SceneFiles files = without_kept(asked, host);
-    if (Status fine = fits(files); !fine) return fine.error();
-    auto standing = StandingScene::build(files.scene, files.settings);
+    const SceneFiles left = without_kept(files, host);
+    if (Status fine = fits(left); !fine) return fine.error();
+    auto standing = StandingScene::build(left.scene, left.settings);
     if (!standing) return standing.error();
     for (const std::string& line : standing->warnings()) say(host, Say::Warning, line);
     const Camera& own = standing->camera();
-    const FoundCamera camera = merged_camera(found_camera(own, "scene " + files.scene), files.camera);
-    const ImageScale image_scale = files.image_scale.value_or(own.image_scale);
-    SceneSettings settings = files.settings;
+    const FoundCamera camera = merged_camera(found_camera(own, "scene " + left.scene), left.camera);
+    const ImageScale image_scale = left.image_scale.value_or(own.image_scale);
+    SceneSettings settings = left.settings;
     settings.camera = known_camera(camera, image_scale);
     settings.progress = [&](double share) {
         if (host.cancelled && host.cancelled()) return false;
-        return !files.settings.progress || files.settings.progress(share);
+        return !left.settings.progress || left.settings.progress(share);
     };
     say(host, Say::Note, camera_line(camera, image_scale));
     auto scene = standing->render(settings);
     if (!scene) return scene.error();
     if (host.cancelled && host.cancelled()) return Error{ErrorCode::Cancelled, "interrupted"};
     const double compute_s = total.seconds();
-    if (Status done = write(files, std::move(*scene), camera, host); !done) return done.error();
-    Json record = Json::parse(empty_record("scene make"));
-    record["input"] = files.scene;
-    record["output"] = outputs_of(files);
-    record["camera"] = Json::parse(record_of_camera(camera, image_scale));
-    record["parameters"] = parameters_of(settings);
-    record["seconds"]["compute"] = compute_s;
-    record["seconds"]["write"] = total.seconds() - compute_s;
-    record["seconds"]["total"] = total.seconds();
-    record["peak_memory_bytes"] = peak_memory_bytes();
+    if (Status done = write(left, std::move(*scene), camera, host); !done) return done.error();
+    Json record = record_of(left, camera, image_scale);
     made.seconds = total.seconds();
+    record["seconds"]["compute"] = compute_s;
+    record["seconds"]["write"] = made.seconds - compute_s;
+    record["seconds"]["total"] = made.seconds;
     made.record = as_text(record);
-    if (Status done = write_record(files, made.record, host); !done) return done.error();
+    if (Status done = write_record(left, made.record, host); !done) return done.error();
     return made;
 }
 
