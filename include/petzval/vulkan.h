@@ -24,9 +24,10 @@
  * - On a queue for asynchronous compute, colour and depth come over by a semaphore and, where they are
  * exclusive, a transfer of their ownership to that family; so does the result, back. Images that are
  * concurrent need the semaphore alone.
- * - A frame is five dispatches in one command buffer, which nobody cuts: where systems end what takes a
- * device seconds, as at 4K under hundreds of lamps a pixel on a small one, a host draws at less resolution,
- * or takes a smaller largest_radius_px, so that fewer lamps reach a pixel, and looks at its own timestamps.
+ * - A frame is five dispatches, ten if a layer is blurred, in one command buffer, which nobody cuts: where
+ * systems end what takes a device seconds, as at 4K under hundreds of lamps a pixel on a small one, a host
+ * draws at less resolution, or takes a smaller largest_radius_px, so that fewer lamps reach a pixel, and
+ * looks at its own timestamps.
  */
 #ifndef PETZVAL_VULKAN_H
 #define PETZVAL_VULKAN_H
@@ -59,13 +60,24 @@ typedef struct petzval_pass_settings {
     VkPipelineCache pipeline_cache;
     /* Not 0: petzval_pass_times() tells what each dispatch took. The queue's family needs timestamps. */
     int measures_times;
+    /* Not 0: a frame's layer may have a depth of its own and is blurred by it. 8 bytes a pixel. */
+    int blurs_layers;
+    /* The host's own memory for the pass's images, as petzval_pass_needs() asks for it: `memory_size` bytes
+     * from `memory_offset` on, for the largest size that the pass will have. Between frames the host may use
+     * it for other things. Null: the pass takes its own. */
+    VkDeviceMemory memory;
+    VkDeviceSize memory_offset, memory_size;
 } petzval_pass_settings;
+
+/* What the images of a pass with these settings need. Their `memory` is not looked at. */
+PETZVAL_C_API petzval_status petzval_pass_needs(const petzval_pass_settings* settings,
+                                                VkMemoryRequirements* needed);
 
 /* The ideal lens until petzval_pass_set_lens(). */
 PETZVAL_C_API petzval_status petzval_pass_open(const petzval_pass_settings* settings, petzval_pass** pass);
 /* Nothing that it recorded may be under way, here and when it is closed. The lens stays, made anew for pixels
- * of this size: as long as petzval_pass_set_lens() takes. The programs stay. If it fails, the pass is as it
- * was. */
+ * of this size: as long as petzval_pass_set_lens() takes. The programs stay, and so does the host's
+ * memory: a size that does not fit there is refused. If it fails, the pass is as it was. */
 PETZVAL_C_API petzval_status petzval_pass_resize(petzval_pass* pass, uint32_t width, uint32_t height);
 PETZVAL_C_API void petzval_pass_close(petzval_pass* pass);
 
@@ -81,6 +93,18 @@ typedef struct petzval_pass_image {
     VkImageView view;     /* of a 2D image, its depth aspect where it is depth */
     VkImageLayout layout; /* UNDEFINED (0): VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL */
 } petzval_pass_image;
+
+/* A frame shows the picture, or a part of it to find a fault, in scene-linear light. */
+typedef enum petzval_pass_view {
+    PETZVAL_PASS_PICTURE = 0,
+    PETZVAL_PASS_RADII =
+        1, /* share of the largest radius: red in front of focus, blue behind; green in focus */
+    PETZVAL_PASS_BEHIND = 2,   /* light in focus and behind it, estimated where something hides it */
+    PETZVAL_PASS_IN_FRONT = 3, /* light in front of focus, premultiplied by its coverage */
+    PETZVAL_PASS_LAMPS = 4,    /* what lamps add */
+    PETZVAL_PASS_TILES =
+        5 /* red: the largest radius in front of focus that reaches a tile; green: fine blur */
+} petzval_pass_view;
 
 typedef struct petzval_pass_frame {
     size_t size;
@@ -102,13 +126,17 @@ typedef struct petzval_pass_frame {
     /* What the host multiplies light by before its tone curve; 0: 1. Estimates of hidden light weigh it as it
      * will be seen: the result for k times the light and 1 / k here is k times as bright. */
     double exposure;
+    /* Depth of the layer, as `depth` has it; needs settings.blurs_layers. The layer is then blurred like a
+     * picture of its own, which takes as long again, and laid over. View null: the layer stays sharp. */
+    petzval_pass_image layer_depth;
+    petzval_pass_view view;
 } petzval_pass_frame;
 
 PETZVAL_C_API petzval_status petzval_pass_record(petzval_pass* pass, const petzval_pass_frame* frame);
 
 /* Writes five milliseconds of the device, for measure, split, reach, gather and combine, of the last frame
- * recorded into a slot. Waits for nothing: PETZVAL_INVALID_ARGUMENT while that frame has not run, or if
- * settings.measures_times is 0. */
+ * recorded into a slot, its layer's included. Waits for nothing: PETZVAL_INVALID_ARGUMENT while that frame
+ * has not run, or if settings.measures_times is 0. */
 PETZVAL_C_API petzval_status petzval_pass_times(const petzval_pass* pass, uint32_t slot,
                                                 double* milliseconds);
 

@@ -67,6 +67,8 @@ Result<RealtimeSettings> settings_of(const petzval_pass_settings& given) {
     }
     settings.cache = given.pipeline_cache;
     settings.is_timed = given.measures_times != 0;
+    settings.blurs_layers = given.blurs_layers != 0;
+    settings.lent = {given.memory, given.memory_offset, given.memory_offset + given.memory_size};
     return settings;
 }
 
@@ -101,6 +103,12 @@ petzval_status record(HostPass& host, const petzval_pass_frame& f) {
     if (!f.colour.view || !f.depth.view || !f.result)
         return fail(PETZVAL_INVALID_ARGUMENT, "frame needs colour, depth and result");
     if (!f.camera) return missing("frame.camera");
+    if (f.layer_depth.view && !host.settings().blurs_layers)
+        return fail(PETZVAL_INVALID_ARGUMENT, "frame.layer_depth needs settings.blurs_layers");
+    if (f.layer_depth.view && !f.layer.view)
+        return fail(PETZVAL_INVALID_ARGUMENT, "frame.layer_depth needs a layer");
+    if (f.view < PETZVAL_PASS_PICTURE || f.view > PETZVAL_PASS_TILES)
+        return fail(PETZVAL_INVALID_ARGUMENT, "frame.view must be 0 to 5");
     if (f.slot >= host.settings().slots)
         return fail(PETZVAL_INVALID_ARGUMENT,
                     "frame.slot must be below frames_in_flight, " + std::to_string(host.settings().slots));
@@ -127,11 +135,13 @@ petzval_status record(HostPass& host, const petzval_pass_frame& f) {
     const RealtimeImages images{input_of(f.colour),
                                 input_of(f.depth),
                                 input_of(f.layer),
+                                input_of(f.layer_depth),
                                 f.result,
                                 f.width,
                                 f.height,
                                 exposure,
-                                device::vulkan::RealtimeField::whole(width, height)};
+                                device::vulkan::RealtimeField::whole(width, height),
+                                device::vulkan::RealtimeView(f.view)};
     host.pass().record(f.commands, f.slot, images, *optics);
     return PETZVAL_OK;
 }
@@ -156,6 +166,21 @@ petzval_status petzval_pass_open(const petzval_pass_settings* given, petzval_pas
         const petzval_status status = set_lens(*made, *lens, camera, Quality::Standard);
         if (status == PETZVAL_OK) *pass = made.release();
         return status;
+    });
+}
+
+petzval_status petzval_pass_needs(const petzval_pass_settings* given, VkMemoryRequirements* needed) {
+    if (!given) return missing("settings");
+    if (!needed) return missing("needed");
+    return guarded([&] {
+        const petzval_pass_settings s = c::taken(given);
+        const auto settings = settings_of(s);
+        if (!settings) return fail(settings.error());
+        const auto found =
+            HostPass::needs({s.get_instance_proc_addr, s.instance, s.physical_device, s.device}, *settings);
+        if (!found) return fail(found.error());
+        *needed = *found;
+        return PETZVAL_OK;
     });
 }
 

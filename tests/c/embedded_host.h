@@ -27,7 +27,7 @@ constexpr VkPipelineStageFlags kCompute = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
 // A host's frame: RGBA, metres along the axis, and a layer above everything; an empty layer is not used.
 struct Scene {
     VkExtent2D size;
-    Floats colour, metres, layer;
+    Floats colour, metres, layer, layer_metres = {};
 };
 
 // A floor that goes away from the camera, a post before focus, a lamp far behind it.
@@ -142,9 +142,11 @@ public:
     Stage(const Host& host, const Scene& scene, VkFormat result = VK_FORMAT_R32G32B32A32_SFLOAT)
         : host_(host),
           has_layer_(!scene.layer.empty()),
+          blurs_layer_(!scene.layer_metres.empty()),
           colour_(host, scene.size, VK_FORMAT_R32G32B32A32_SFLOAT, kGiven),
           depth_(host, scene.size, VK_FORMAT_R32_SFLOAT, kGiven),
           layer_(host, scene.size, VK_FORMAT_R32G32B32A32_SFLOAT, kGiven),
+          layer_depth_(host, scene.size, VK_FORMAT_R32_SFLOAT, kGiven),
           result_(host, scene.size, result, VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT) {
         VkCommandBufferAllocateInfo info = {};
         info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
@@ -153,6 +155,7 @@ public:
         colour_.fill(scene.colour);
         if (has_layer_) layer_.fill(scene.layer);
         place(scene.metres, kReversed);
+        if (blurs_layer_) layer_depth_.fill(depths_of(scene.layer_metres));
     }
     ~Stage() { vkFreeCommandBuffers(host_.device, host_.pool, 1, &commands_); }
     Stage(const Stage&) = delete;
@@ -160,11 +163,13 @@ public:
 
     // Stores distances as depth of this meaning.
     void place(const Floats& metres, DepthMeaning meaning) {
-        Floats depth;
-        for (const float z : metres) depth.push_back(float((1 / double(z) - meaning.bias) / meaning.scale));
-        depth_.fill(depth), meaning_ = meaning;
+        meaning_ = meaning;
+        depth_.fill(depths_of(metres));
     }
+    void show(petzval_pass_view view) { view_ = view; }
 
+    VkCommandBuffer commands() const { return commands_; }
+    VkImageView any_view() const { return colour_.view(); }
     void expose(double exposure) { exposure_ = exposure; }
 
     // One frame: recorded, run, read.
@@ -175,6 +180,7 @@ public:
         colour_.upload(commands_, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
         depth_.upload(commands_, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
         if (has_layer_) layer_.upload(commands_, VK_IMAGE_LAYOUT_GENERAL);
+        if (blurs_layer_) layer_depth_.upload(commands_, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
         result_.free_to_be_written(commands_);
         const petzval_camera camera = camera_at(focus_m);
         petzval_pass_frame frame = {};
@@ -185,6 +191,8 @@ public:
         frame.camera = &camera, frame.largest_radius_px = 12;
         frame.width = part.width;
         frame.exposure = exposure_;
+        frame.view = view_;
+        if (blurs_layer_) frame.layer_depth.view = layer_depth_.view();
         frame.height = part.height;
         EXPECT_EQ(petzval_pass_record(pass, &frame), PETZVAL_OK) << petzval_error_text();
         result_.download(commands_);
@@ -199,11 +207,19 @@ public:
 
 private:
     static constexpr VkImageUsageFlags kGiven = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    Floats depths_of(const Floats& metres) const {
+        Floats depths;
+        for (const float z : metres)
+            depths.push_back(float((1 / double(z) - meaning_.bias) / meaning_.scale));
+        return depths;
+    }
+
     const Host& host_;
-    bool has_layer_;
+    bool has_layer_, blurs_layer_;
     double exposure_ = 0;
+    petzval_pass_view view_ = PETZVAL_PASS_PICTURE;
     DepthMeaning meaning_ = kReversed;
-    Sheet colour_, depth_, layer_, result_;
+    Sheet colour_, depth_, layer_, layer_depth_, result_;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;
 };
 
@@ -215,13 +231,22 @@ protected:
     static Pass open(VkExtent2D size, PFN_vkGetInstanceProcAddr find = vkGetInstanceProcAddr,
                      VkPipelineCache cache = VK_NULL_HANDLE, int measures_times = 0,
                      VkFormat result = VK_FORMAT_R32G32B32A32_SFLOAT) {
+        petzval_pass_settings settings = settings_of(size, find);
+        settings.measures_times = measures_times, settings.pipeline_cache = cache;
+        settings.result_format = result;
+        return opened(settings);
+    }
+    static petzval_pass_settings settings_of(VkExtent2D size,
+                                             PFN_vkGetInstanceProcAddr find = vkGetInstanceProcAddr) {
         petzval_pass_settings settings = {};
-        settings.measures_times = measures_times;
         settings.size = sizeof settings;
-        settings.get_instance_proc_addr = find, settings.pipeline_cache = cache;
+        settings.get_instance_proc_addr = find;
         settings.instance = host_.instance, settings.physical_device = host_.physical;
         settings.device = host_.device, settings.width = size.width, settings.height = size.height;
-        settings.result_format = result;
+        settings.result_format = VK_FORMAT_R32G32B32A32_SFLOAT;
+        return settings;
+    }
+    static Pass opened(const petzval_pass_settings& settings) {
         petzval_pass* pass = nullptr;
         must(petzval_pass_open(&settings, &pass) == PETZVAL_OK, petzval_error_text());
         return Pass(pass);

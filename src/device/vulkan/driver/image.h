@@ -4,6 +4,7 @@
 #include "device/vulkan/driver/heap.h"
 
 #include <cstdint>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -16,11 +17,21 @@ struct ImageKind {
     bool is_array = false;  // its views are arrays
 };
 
+// Memory of somebody else's that images are laid into, one behind the other.
+struct LentMemory {
+    VkDeviceMemory memory = VK_NULL_HANDLE;  // null: images take their own
+    VkDeviceSize next = 0, end = 0;          // bytes: where the next image may begin, where the memory ends
+};
+
 // One image, its memory, and a view of each level and of all of them. Throws Failed.
 class DeviceImage {
 public:
     DeviceImage() = default;
-    DeviceImage(const Opened& opened, const VkPhysicalDeviceMemoryProperties& memory, const ImageKind& kind);
+    // lent: moves on behind the image.
+    DeviceImage(Opened opened, const VkPhysicalDeviceMemoryProperties& memory, const ImageKind& kind,
+                LentMemory* lent = nullptr);
+    // Memory that an image of this kind needs.
+    static VkMemoryRequirements needs(const Opened& opened, const ImageKind& kind);
     ~DeviceImage();
     DeviceImage(DeviceImage&& other) noexcept { *this = std::move(other); }
     DeviceImage& operator=(DeviceImage&& other) noexcept;
@@ -32,7 +43,9 @@ public:
     VkImageView level(std::size_t n) const { return views_[n]; }
 
 private:
-    void create(const VkPhysicalDeviceMemoryProperties& memory, const ImageKind& kind);
+    void create(const VkPhysicalDeviceMemoryProperties& memory, const ImageKind& kind, LentMemory* lent);
+    void take_memory(const VkPhysicalDeviceMemoryProperties& memory, const VkMemoryRequirements& needed,
+                     const std::string& what);
     void add_view(const ImageKind& kind, std::uint32_t first_level, std::uint32_t levels);
     void destroy();
 

@@ -151,13 +151,13 @@ ShaderWords words_of(Shader shader) {
         ShaderWords{kStarFilter, buffers(4), 52},
         ShaderWords{kStarAdd, buffers(2), 52},
         ShaderWords{kDevelop, buffers(2), 52},
-        ShaderWords{kRealtimeMeasure, kOfMeasure, 56},
-        ShaderWords{kRealtimeSplit, kOfSplit, 56},
-        ShaderWords{kRealtimeReach, kOfReach, 56},
-        ShaderWords{kRealtimeGather, kOfGather, 56},
-        ShaderWords{kRealtimeCombine16, kOfCombine, 56},
-        ShaderWords{kRealtimeCombine32, kOfCombine, 56},
-        ShaderWords{kRealtimeCombine11, kOfCombine, 56},
+        ShaderWords{kRealtimeMeasure, kOfMeasure, 60},
+        ShaderWords{kRealtimeSplit, kOfSplit, 60},
+        ShaderWords{kRealtimeReach, kOfReach, 60},
+        ShaderWords{kRealtimeGather, kOfGather, 60},
+        ShaderWords{kRealtimeCombine16, kOfCombine, 60},
+        ShaderWords{kRealtimeCombine32, kOfCombine, 60},
+        ShaderWords{kRealtimeCombine11, kOfCombine, 60},
     };
     return kWords[std::size_t(shader)];
 }

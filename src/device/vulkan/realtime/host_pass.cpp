@@ -44,15 +44,33 @@ Result<RealtimeOptics> optics_of(const Camera& camera, int width, const DepthSca
     return optics;
 }
 
-Result<std::unique_ptr<HostPass>> HostPass::open(const Host& host, const RealtimeSettings& settings) {
-    std::unique_ptr<HostPass> made(new HostPass);
-    Functions& vk = made->vk_;
-    vk.vkGetInstanceProcAddr = host.get_instance_proc_addr;
-    find_functions(vk, host.instance);
-    if (!vk.vkGetDeviceProcAddr || !vk.vkGetPhysicalDeviceMemoryProperties)
+Status HostPass::find(const Host& host) {
+    vk_.vkGetInstanceProcAddr = host.get_instance_proc_addr;
+    find_functions(vk_, host.instance);
+    if (!vk_.vkGetDeviceProcAddr || !vk_.vkGetPhysicalDeviceMemoryProperties)
         return Error{ErrorCode::InvalidArgument,
                      "settings.get_instance_proc_addr does not know this instance"};
-    find_functions(vk, host.device);
+    find_functions(vk_, host.device);
+    VkPhysicalDeviceProperties properties = {};
+    vk_.vkGetPhysicalDeviceProperties(host.physical_device, &properties);
+    opened_ = {&vk_, host.device, properties.deviceName};
+    return Done{};
+}
+
+Result<VkMemoryRequirements> HostPass::needs(const Host& host, const RealtimeSettings& settings) {
+    HostPass pass;
+    if (const Status found = pass.find(host); !found) return found.error();
+    try {
+        return RealtimePass::needs(pass.opened_, settings);
+    } catch (const Failed& failed) {
+        return failed.error;
+    }
+}
+
+Result<std::unique_ptr<HostPass>> HostPass::open(const Host& host, const RealtimeSettings& settings) {
+    std::unique_ptr<HostPass> made(new HostPass);
+    if (const Status found = made->find(host); !found) return found.error();
+    const Functions& vk = made->vk_;
     vk.vkGetPhysicalDeviceMemoryProperties(host.physical_device, &made->memory_);
     VkPhysicalDeviceProperties properties = {};
     vk.vkGetPhysicalDeviceProperties(host.physical_device, &properties);
@@ -69,7 +87,6 @@ Result<std::unique_ptr<HostPass>> HostPass::open(const Host& host, const Realtim
                                                      " has no storage images of B10G11R11_UFLOAT_PACK32"};
     }
     made->tick_ms_ = double(properties.limits.timestampPeriod) * 1e-6;
-    made->opened_ = {&vk, host.device, properties.deviceName};
     auto pass = made->made(settings);
     if (!pass) return pass.error();
     made->pass_ = std::move(*pass), made->settings_ = settings;

@@ -34,6 +34,8 @@ class HostPass {
 public:
     // Errors: Unsupported (the missing feature of the device), OutOfMemory.
     static Result<std::unique_ptr<HostPass>> open(const Host& host, const RealtimeSettings& settings);
+    // Memory that its images need. Errors: as above.
+    static Result<VkMemoryRequirements> needs(const Host& host, const RealtimeSettings& settings);
     // With the lens that is mounted on that size. If it fails, nothing changed. Errors: as above.
     Status resize(std::uint32_t width, std::uint32_t height, const kernel::LensModel& lens, Quality quality);
     // Sets the lens, from any thread; may run beside pass().record(), not beside resize(). Errors: as above.
@@ -45,6 +47,7 @@ public:
 
 private:
     HostPass() = default;
+    Status find(const Host& host);
     Result<std::unique_ptr<RealtimePass>> made(const RealtimeSettings& settings) const;
 
     Functions vk_;

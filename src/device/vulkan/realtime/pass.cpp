@@ -26,6 +26,27 @@ Shader shader_of(std::size_t step, RealtimeResult result) {
     return shaders[step];
 }
 
+// The images of a pass: cells, what is gathered, and the blurred layer.
+std::vector<ImageKind> kinds_of(const RealtimeSettings& settings) {
+    ImageKind kind;
+    kind.width = (settings.width + 2 * kGroup - 1) / (2 * kGroup) * kGroup;
+    kind.height = (settings.height + 2 * kGroup - 1) / (2 * kGroup) * kGroup;
+    kind.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+    kind.is_array = true;
+    kind.layers = 7;
+    kind.levels = kLevels;
+    std::vector<ImageKind> kinds{kind};
+    kind.layers = 3;
+    kind.levels = 1;
+    kinds.push_back(kind);
+    kind.layers = 1;
+    kind.is_array = false;
+    kind.width = settings.width;
+    kind.height = settings.height;
+    if (settings.blurs_layers) kinds.push_back(kind);
+    return kinds;
+}
+
 // For tools that show a host's frames; nothing where the host did not enable VK_EXT_debug_utils.
 void name(const Opened& opened, VkObjectType type, std::uint64_t object, const std::string& said) {
     if (!opened.vk->vkSetDebugUtilsObjectNameEXT) return;
@@ -45,12 +66,14 @@ RealtimePrograms::RealtimePrograms(Opened opened, const RealtimeSettings& settin
     : opened_(std::move(opened)) {
     const VkPipelineCreateFlags flags = settings.is_cut ? VK_PIPELINE_CREATE_DISPATCH_BASE_BIT : 0;
     try {
-        for (std::size_t step = 0; step < programs_.size(); ++step) {
+        for (std::size_t step = 0; step < kNames.size(); ++step) {
             programs_[step] =
                 make_program(opened_, shader_of(step, settings.result), 0, flags, settings.cache);
             name(opened_, VK_OBJECT_TYPE_PIPELINE, word_of(programs_[step].pipeline),
                  std::string("petzval ") + kNames[step]);
         }
+        if (settings.blurs_layers && settings.result != RealtimeResult::Half)
+            programs_.back() = make_program(opened_, Shader::RealtimeCombine16, 0, flags, settings.cache);
     } catch (...) {
         destroy();
         throw;
@@ -71,7 +94,8 @@ RealtimePass::RealtimePass(const Opened& opened, const VkPhysicalDeviceMemoryPro
       settings_(settings),
       heap_(opened, memory, std::size_t(1) << 20),
       programs_(std::move(programs)),
-      slots_(settings.slots) {
+      slots_(std::size_t(settings.slots) * (settings.blurs_layers ? 2 : 1)) {
+    for (std::size_t i = settings.slots; i < slots_.size(); ++i) slots_[i].is_of_layer = true;
     try {
         make();
     } catch (...) {
@@ -82,14 +106,23 @@ RealtimePass::RealtimePass(const Opened& opened, const VkPhysicalDeviceMemoryPro
 
 RealtimePass::~RealtimePass() { destroy(); }
 
+VkMemoryRequirements RealtimePass::needs(const Opened& opened, const RealtimeSettings& settings) {
+    VkMemoryRequirements all = {0, 1, ~0u};
+    for (const ImageKind& kind : kinds_of(settings)) {
+        const VkMemoryRequirements one = DeviceImage::needs(opened, kind);
+        all.size = (all.size + one.alignment - 1) / one.alignment * one.alignment + one.size;
+        all.alignment = std::max(all.alignment, one.alignment);
+        all.memoryTypeBits &= one.memoryTypeBits;
+    }
+    return all;
+}
+
 void RealtimePass::make() {
-    ImageKind kind;
-    kind.width = tiles_x() * kGroup, kind.height = tiles_y() * kGroup, kind.is_array = true;
-    kind.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
-    kind.layers = 7, kind.levels = kLevels;
-    cells_ = DeviceImage(opened_, memory_, kind);
-    kind.layers = 3, kind.levels = 1;
-    gathered_ = DeviceImage(opened_, memory_, kind);
+    LentMemory lent = settings_.lent;
+    const std::vector<ImageKind> kinds = kinds_of(settings_);
+    cells_ = DeviceImage(opened_, memory_, kinds[0], &lent);
+    gathered_ = DeviceImage(opened_, memory_, kinds[1], &lent);
+    if (settings_.blurs_layers) layer_ = DeviceImage(opened_, memory_, kinds[2], &lent);
     const std::size_t tiles = std::size_t(tiles_x()) * tiles_y();
     surroundings_ = heap_.allocate(Kind::OnDevice, tiles * 2 * sizeof(float));
     tiles_ = heap_.allocate(Kind::OnDevice, tiles * 4 * sizeof(float));
@@ -118,7 +151,7 @@ void RealtimePass::make_sampler(VkFilter filter, VkSampler& sampler) const {
 }
 
 void RealtimePass::make_sets() {
-    const std::uint32_t slots = settings_.slots;
+    const auto slots = std::uint32_t(slots_.size());
     std::array<VkDescriptorPoolSize, 3> sizes{{{kSampled, 0}, {kStored, 0}, {kBuffer, 0}}};
     for (std::size_t step = 0; step < kSteps; ++step)
         for (const VkDescriptorType type : words_of(shader_of(step, settings_.result)).bindings)
@@ -130,11 +163,11 @@ void RealtimePass::make_sets() {
     pool.poolSizeCount = std::uint32_t(sizes.size()), pool.pPoolSizes = sizes.data();
     check(vk_.vkCreateDescriptorPool(opened_.device, &pool, nullptr, &pool_), opened_.name, "descriptors");
     std::array<VkDescriptorSetLayout, kSteps> layouts = {};
-    for (std::size_t i = 0; i < kSteps; ++i) layouts[i] = (*programs_)[i].set_layout;
     VkDescriptorSetAllocateInfo info = {};
     info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
     info.descriptorPool = pool_, info.descriptorSetCount = kSteps, info.pSetLayouts = layouts.data();
     for (Slot& slot : slots_) {
+        for (std::size_t i = 0; i < kSteps; ++i) layouts[i] = program(slot, Step(i)).set_layout;
         check(vk_.vkAllocateDescriptorSets(opened_.device, &info, slot.sets.data()), opened_.name,
               "descriptors");
         write_own(slot);
@@ -145,7 +178,7 @@ void RealtimePass::make_queries() {
     VkQueryPoolCreateInfo info = {};
     info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
     info.queryType = VK_QUERY_TYPE_TIMESTAMP;
-    info.queryCount = (kSteps + 1) * settings_.slots;
+    info.queryCount = (kSteps + 1) * std::uint32_t(slots_.size());
     check(vk_.vkCreateQueryPool(opened_.device, &info, nullptr, &queries_), opened_.name, "timestamps");
 }
 
@@ -157,6 +190,11 @@ void RealtimePass::write_time(VkCommandBuffer commands, std::uint32_t slot, std:
 }
 
 bool RealtimePass::ticks(std::uint32_t slot, std::array<std::uint64_t, kSteps>& taken) const {
+    taken = {};
+    return add_ticks(slot, taken) && (!slots_[slot].has_layer || add_ticks(slot + settings_.slots, taken));
+}
+
+bool RealtimePass::add_ticks(std::uint32_t slot, std::array<std::uint64_t, kSteps>& taken) const {
     if (!slots_[slot].is_timed) return false;
     std::array<std::uint64_t, kSteps + 1> at = {};
     const VkResult found =
@@ -164,7 +202,7 @@ bool RealtimePass::ticks(std::uint32_t slot, std::array<std::uint64_t, kSteps>& 
                                   at.data(), sizeof at[0], VK_QUERY_RESULT_64_BIT);
     if (found == VK_NOT_READY) return false;
     check(found, opened_.name, "timestamps");
-    for (std::size_t i = 0; i < kSteps; ++i) taken[i] = at[i + 1] - at[i];
+    for (std::size_t i = 0; i < kSteps; ++i) taken[i] += at[i + 1] - at[i];
     return true;
 }
 
@@ -300,18 +338,19 @@ void RealtimePass::take_lens(VkCommandBuffer commands, Slot& slot) {
         loaded.copied_in = &slot;
     }
     write_lens(slot);
-    std::array<VkImageMemoryBarrier, 2> fresh = {};
-    for (std::size_t i = 0; i < fresh.size(); ++i) {
+    const std::array own{cells_.handle(), gathered_.handle(), layer_.handle()};
+    std::array<VkImageMemoryBarrier, 3> fresh = {};
+    const std::uint32_t images = slot.is_of_layer ? 3 : 2;
+    for (std::size_t i = 0; i < images; ++i) {
         fresh[i].sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER;
         fresh[i].dstAccessMask = VK_ACCESS_SHADER_WRITE_BIT;
         fresh[i].oldLayout = VK_IMAGE_LAYOUT_UNDEFINED, fresh[i].newLayout = VK_IMAGE_LAYOUT_GENERAL;
         fresh[i].srcQueueFamilyIndex = fresh[i].dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-        fresh[i].image = i == 0 ? cells_.handle() : gathered_.handle();
+        fresh[i].image = own[i];
         fresh[i].subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, VK_REMAINING_MIP_LEVELS, 0,
                                      VK_REMAINING_ARRAY_LAYERS};
     }
-    vk_.vkCmdPipelineBarrier(commands, kCompute, kCompute, 0, 0, nullptr, 0, nullptr,
-                             std::uint32_t(fresh.size()), fresh.data());
+    vk_.vkCmdPipelineBarrier(commands, kCompute, kCompute, 0, 0, nullptr, 0, nullptr, images, fresh.data());
     order(commands, VK_PIPELINE_STAGE_TRANSFER_BIT | kCompute,
           VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_SHADER_WRITE_BIT, kCompute);
 }
@@ -327,7 +366,8 @@ void RealtimePass::begin(VkCommandBuffer commands, std::uint32_t slot, const Rea
                          optics,
                          images.layer.view ? 1u : 0u,
                          images.exposure,
-                         images.field};
+                         images.field,
+                         images.view};
 }
 
 // A frame smaller than the images has tiles around it that continue its border, as far as anything reads
@@ -358,16 +398,37 @@ void RealtimePass::bind(VkCommandBuffer commands, const Slot& slot, Step step, b
     if (step > 0 && !(plant && step == kGather))
         order(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
               VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT);
-    const Program& program = (*programs_)[step];
-    vk_.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, program.pipeline);
-    vk_.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, program.layout, 0, 1,
-                                &slot.sets[step], 0, nullptr);
-    vk_.vkCmdPushConstants(commands, program.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof slot.push,
+    const Program& run = program(slot, step);
+    vk_.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, run.pipeline);
+    vk_.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, run.layout, 0, 1, &slot.sets[step],
+                                0, nullptr);
+    vk_.vkCmdPushConstants(commands, run.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof slot.push,
                            &slot.push);
+}
+
+const Program& RealtimePass::program(const Slot& slot, Step step) const {
+    return slot.is_of_layer ? programs_->of_layer(step) : (*programs_)[step];
 }
 
 void RealtimePass::record(VkCommandBuffer commands, std::uint32_t slot, const RealtimeImages& images,
                           const RealtimeOptics& optics) {
+    RealtimeImages frame = images;
+    slots_[slot].has_layer = images.layer.view && images.layer_depth.view;
+    if (slots_[slot].has_layer) {
+        RealtimeImages layer = images;
+        layer.colour = images.layer;
+        layer.depth = images.layer_depth;
+        layer.layer = layer.layer_depth = {};
+        layer.result = layer_.view();
+        layer.view = RealtimeView::Picture;
+        record_steps(commands, slot + settings_.slots, layer, optics);
+        frame.layer = {layer_.view(), VK_IMAGE_LAYOUT_GENERAL};
+    }
+    record_steps(commands, slot, frame, optics);
+}
+
+void RealtimePass::record_steps(VkCommandBuffer commands, std::uint32_t slot, const RealtimeImages& images,
+                                const RealtimeOptics& optics) {
     begin(commands, slot, images, optics);
     const Push& push = slots_[slot].push;
     // Pixels that discs, kernels of lamps and means of cells reach.

@@ -23,7 +23,9 @@ struct RealtimeSettings {
     RealtimeResult result = RealtimeResult::Half;
     bool is_cut = false;                     // frames are recorded in parts
     bool is_timed = false;                   // by timestamps around each step
+    bool blurs_layers = false;               // frames may have a layer with a depth of its own
     VkPipelineCache cache = VK_NULL_HANDLE;  // for programs; outlives their making alone
+    LentMemory lent = {};                    // for images
 };
 
 // A signed radius, in pixels, is add_px + per_depth_px * depth.
@@ -39,17 +41,22 @@ struct RealtimeField {
     }
 };
 
+// A view shows a part of the picture instead of it: petzval/vulkan.h says how each looks.
+enum class RealtimeView : std::uint32_t { Picture, Radii, Behind, InFront, Lamps, Tiles };
+
 struct RealtimeImages {
     struct Input {
         VkImageView view = VK_NULL_HANDLE;
         VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     };
     Input colour, depth, layer;           // layer: null: none
+    Input layer_depth;                    // null: the layer is sharp. Requires: settings.blurs_layers
     VkImageView result = VK_NULL_HANDLE;  // in VK_IMAGE_LAYOUT_GENERAL
     // The part of them that is a frame, from the top left; 0: as large as the settings say.
     std::uint32_t width = 0, height = 0;
     float exposure = 1;  // estimates weigh light times this
     RealtimeField field;
+    RealtimeView view = RealtimeView::Picture;
 };
 
 // The programs of a pass, which serve frames of any size. Throws Failed.
@@ -61,11 +68,16 @@ public:
     RealtimePrograms(const RealtimePrograms&) = delete;
     RealtimePrograms& operator=(const RealtimePrograms&) = delete;
     const Program& operator[](std::size_t step) const { return programs_[step]; }
+    // The programs of a blurred layer, whose image has halves.
+    const Program& of_layer(std::size_t step) const {
+        return step + 2 == programs_.size() && programs_[step + 1].pipeline ? programs_[step + 1]
+                                                                            : programs_[step];
+    }
 
 private:
     void destroy();
     const Opened opened_;
-    std::array<Program, 5> programs_;
+    std::array<Program, 6> programs_;  // the last: combine of a layer, where that of the frame cannot be
 };
 
 // Everything is made at once and kept. Throws Failed.
@@ -76,6 +88,8 @@ public:
     RealtimePass(const Opened& opened, const VkPhysicalDeviceMemoryProperties& memory,
                  const RealtimeSettings& settings, std::shared_ptr<const RealtimePrograms> programs = {});
     ~RealtimePass();
+    // Memory that the images of such a pass need together. Throws Failed.
+    static VkMemoryRequirements needs(const Opened& opened, const RealtimeSettings& settings);
     RealtimePass(const RealtimePass&) = delete;
     RealtimePass& operator=(const RealtimePass&) = delete;
 
@@ -113,8 +127,9 @@ private:
         std::uint32_t has_layer = 0;
         float exposure = 1;
         RealtimeField field;
+        RealtimeView view = RealtimeView::Picture;
     };
-    static_assert(sizeof(Push) == 56, "as shaders/realtime.glsl has it");
+    static_assert(sizeof(Push) == 60, "as shaders/realtime.glsl has it");
     struct Slot;
     struct Loaded {
         std::shared_ptr<const engine::RealtimeLens> lens;
@@ -127,6 +142,8 @@ private:
         Push push;
         std::shared_ptr<Loaded> lens;  // of its last frame
         bool is_timed = false;         // its timestamps were recorded
+        bool is_of_layer = false;      // draws the layers of another slot's frames
+        bool has_layer = false;        // its last frame had one to blur
     };
 
     // Groups of a frame of this size, where cells so many pixels outside of it are read.
@@ -135,6 +152,7 @@ private:
     void destroy();
     void make_sampler(VkFilter filter, VkSampler& sampler) const;
     void make_sets();
+    const Program& program(const Slot& slot, Step step) const;
     void make_queries();
     void write_time(VkCommandBuffer commands, std::uint32_t slot, std::uint32_t place) const;
     void write_own(const Slot& slot) const;
@@ -144,6 +162,9 @@ private:
     void write_buffer(VkDescriptorSet set, std::uint32_t binding, const Piece& piece) const;
     void take_lens(VkCommandBuffer commands, Slot& slot);
     void write_lens(const Slot& slot) const;
+    void record_steps(VkCommandBuffer commands, std::uint32_t slot, const RealtimeImages& images,
+                      const RealtimeOptics& optics);
+    bool add_ticks(std::uint32_t slot, std::array<std::uint64_t, kSteps>& taken) const;
     void bind(VkCommandBuffer commands, const Slot& slot, Step step, bool plant);
     std::uint64_t least_bytes(Step step) const;
     void order(VkCommandBuffer commands, VkPipelineStageFlags from, VkAccessFlags written,
@@ -154,14 +175,14 @@ private:
     const VkPhysicalDeviceMemoryProperties memory_;
     const RealtimeSettings settings_;
     Heap heap_;
-    DeviceImage cells_, gathered_;
+    DeviceImage cells_, gathered_, layer_;
     Piece surroundings_, tiles_, lamps_, reach_, boxes_, kept_;
     VkSampler nearest_ = VK_NULL_HANDLE, linear_ = VK_NULL_HANDLE;
     std::shared_ptr<const RealtimePrograms> programs_;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
     VkQueryPool queries_ = VK_NULL_HANDLE;  // kSteps + 1 a slot; null: not timed
-    std::vector<Slot> slots_;
-    std::mutex mutex_;  // of the next line
+    std::vector<Slot> slots_;               // of frames; then, if settings_.blurs_layers, of their layers
+    std::mutex mutex_;                      // of the next line
     std::shared_ptr<Loaded> chosen_;
 };
 

@@ -6,6 +6,7 @@ layout(push_constant) uniform Push {
     uint has_layer;
     float exposure;  // of the host's display
     vec2 zone_scale, zone_add;  // share of the way from the first zone of the lens to the last: scale * pixel + add
+    uint view;  // what is drawn: petzval/vulkan.h
 } at;
 
 // Fours of a lens: number of taps, their side, columns and rows of zones; taps; then those of each zone.

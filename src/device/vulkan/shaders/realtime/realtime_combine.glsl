@@ -131,6 +131,17 @@ vec4 back_at(ivec2 pixel, float radius, out float is_known) {
     return weights > 1e-6 ? sum / weights : vec4(0);
 }
 
+// The view that a host asked for.
+vec4 viewed(vec4 made, float radius, vec4 reaches, vec4 behind, vec4 before, vec4 lamps) {
+    const float share = min(abs(radius) / at.most_px, 1.0);
+    if (at.view == 1u) return vec4(radius < 0 ? share : 0.0, abs(radius) < 0.5 ? 0.25 : 0.0, radius > 0 ? share : 0.0, 1);
+    if (at.view == 2u) return vec4(behind.rgb, 1);
+    if (at.view == 3u) return before;
+    if (at.view == 4u) return vec4(lamps.rgb, 1);
+    if (at.view == 5u) return vec4(reaches.x / at.most_px, max(reaches.y, reaches.z) / kWholePx, 0, 1);
+    return made;
+}
+
 void main() {
     // A group whole or not at all: its invocations look for lamps together.
     const ivec2 place_of_group = ivec2(gl_GlobalInvocationID.xy), pixel = min(place_of_group, at.size - 1);
@@ -174,6 +185,10 @@ void main() {
     if (at.has_layer != 0u) {
         const vec4 layer = finite_of(texelFetch(over, pixel, 0));
         made = layer + (1 - layer.a) * made;
+    }
+    if (at.view != 0u) {
+        const vec4 before = (area > 0 ? covers / area : 0.0) * near + open * own.near;
+        made = viewed(made, radius, reaches, base, before, back_lamps + near_lamps);
     }
     if (pixel == place_of_group) imageStore(result, pixel, made);
 }
