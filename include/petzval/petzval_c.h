@@ -103,7 +103,8 @@ PETZVAL_C_API petzval_status petzval_session_trim(petzval_session* session, uint
 /* The engines and the lenses that ship, from 0 on; null behind the last. Live for ever. */
 PETZVAL_C_API const char* petzval_engine_name(int index);
 PETZVAL_C_API const char* petzval_lens_name(int index);
-/* The presets that were there when this was first asked: a user's own, then those that ship. */
+/* The presets that were there when this was first asked: a user's own, then those that ship. Null, with
+ * petzval_error_text(), also if memory runs out while they are listed; a later call tries again. */
 PETZVAL_C_API const char* petzval_preset_name(int index);
 /* The devices that were there when this was first asked: "cpu", "gpu:0", …. Starts drivers. */
 PETZVAL_C_API const char* petzval_device_name(int index);

@@ -17,10 +17,33 @@ using petzval::c::fail;
 using petzval::c::guarded;
 using petzval::c::missing;
 
+namespace {
+
+// Makes a look from a text by `read`. A null text is refused by the name `argument`.
+template <typename Read>
+petzval_status new_look(const char* text, const char* argument, petzval_look** look, const Read& read) {
+    if (!look) return missing("look");
+    *look = nullptr;
+    if (!text) return missing(argument);
+    return guarded([&] {
+        auto made = read(text);
+        if (!made) return fail(made.error());
+        *look = new petzval_look{std::move(*made), {}, {}};
+        return PETZVAL_OK;
+    });
+}
+
+}  // namespace
+
 const char* petzval_preset_name(int index) {
-    static const std::vector<petzval::LookPreset> presets = petzval::all_presets();
-    return index >= 0 && std::size_t(index) < presets.size() ? presets[std::size_t(index)].name.c_str()
-                                                             : nullptr;
+    const char* name = nullptr;
+    guarded([&] {
+        static const std::vector<petzval::LookPreset> presets = petzval::all_presets();
+        if (index >= 0 && std::size_t(index) < presets.size())
+            name = presets[std::size_t(index)].name.c_str();
+        return PETZVAL_OK;
+    });
+    return name;
 }
 
 petzval_status petzval_look_new(petzval_look** look) {
@@ -33,27 +56,11 @@ petzval_status petzval_look_new(petzval_look** look) {
 }
 
 petzval_status petzval_look_from_json(const char* json, petzval_look** look) {
-    if (!look) return missing("look");
-    *look = nullptr;
-    if (!json) return missing("json");
-    return guarded([&] {
-        auto read = look_from_json(json);
-        if (!read) return fail(read.error());
-        *look = new petzval_look{std::move(*read), {}, {}};
-        return PETZVAL_OK;
-    });
+    return new_look(json, "json", look, look_from_json);
 }
 
 petzval_status petzval_look_from_preset(const char* name, petzval_look** look) {
-    if (!look) return missing("look");
-    *look = nullptr;
-    if (!name) return missing("name");
-    return guarded([&] {
-        auto read = read_preset(name);
-        if (!read) return fail(read.error());
-        *look = new petzval_look{std::move(*read), {}, {}};
-        return PETZVAL_OK;
-    });
+    return new_look(name, "name", look, read_preset);
 }
 
 petzval_status petzval_look_set(petzval_look* look, const char* field, const char* value) {
