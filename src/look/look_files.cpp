@@ -1,9 +1,9 @@
-// Looks read from files, and presets by name: a user's own, and those that ship.
+// Look files, and the folder of a user's own presets.
 #include "petzval/look_json.h"
-#include "petzval/names.h"
 
 #include "base/user_folder.h"
 #include "base/whole_file.h"
+#include "look/preset_list.h"
 #include "optics/lens_text.h"
 
 #include <algorithm>
@@ -69,15 +69,7 @@ Result<Look> read_preset(const std::string& name) {
     const bool is_name = !name.empty() && name.find_first_of("/\\") == std::string::npos;
     if (is_name && !folder.empty() && fs::is_regular_file(folder / (name + ".json"), ignored))
         return read_look((folder / (name + ".json")).string());
-    std::vector<std::string> known;
-    std::string there;
-    for (const LookPreset& preset : all_presets()) {
-        if (preset.name == name) return preset.look;
-        known.push_back(preset.name);
-        there += (there.empty() ? "" : ", ") + preset.name;
-    }
-    return Error{ErrorCode::InvalidArgument,
-                 "there is no preset \"" + name + "\"" + did_you_mean(name, known) + "; there are " + there};
+    return look::preset_of(all_presets(), name);
 }
 
 std::vector<LookPreset> all_presets() {

@@ -3,6 +3,7 @@
 #include "petzval/names.h"
 
 #include "look/fields.h"
+#include "look/preset_list.h"
 
 namespace petzval {
 namespace {
@@ -42,7 +43,7 @@ Look look_of(const Row& row) {
     for (const auto& [section, fields] : sections.items())
         for (const auto& [name, value] : fields.items())
             // The presets' own test finds a field that is refused.
-            if (const look::Field* field = look::find_field(section + "." + name))
+            if (const look::Field* field = look::find_field(std::string(section).append(".").append(name)))
                 (void)field->set(look, value);
     return look;
 }
@@ -58,16 +59,18 @@ const std::vector<LookPreset>& look_presets() {
     return all;
 }
 
-Result<Look> look_preset(const std::string& name) {
+Result<Look> look::preset_of(const std::vector<LookPreset>& presets, const std::string& name) {
     std::vector<std::string> known;
-    for (const LookPreset& preset : look_presets()) {
+    std::string there;
+    for (const LookPreset& preset : presets) {
         if (preset.name == name) return preset.look;
         known.push_back(preset.name);
+        there += (there.empty() ? "" : ", ") + preset.name;
     }
-    std::string there;
-    for (const std::string& one : known) there += (there.empty() ? "" : ", ") + one;
     return Error{ErrorCode::InvalidArgument,
                  "there is no preset \"" + name + "\"" + did_you_mean(name, known) + "; there are " + there};
 }
+
+Result<Look> look_preset(const std::string& name) { return look::preset_of(look_presets(), name); }
 
 }  // namespace petzval
