@@ -1,4 +1,4 @@
-// Several instances, several threads, several lives, and the overlay.
+// Several instances, several threads, several lives, menus and the overlay.
 #include "checks.h"
 #include "rules.h"
 
@@ -87,6 +87,25 @@ void check_reload(const Setup& setup) {
     }
     Scene again(setup, {"reload.same"});  // the library itself was closed
     if (again) expect_same("reload.same", again.plain, before, "the library opened again");
+}
+
+void check_menus(const Setup& setup) {
+    Scene scene(setup, {"params.chosen"});
+    if (!scene) return;
+    bool has_menu = false;
+    for (const auto& param : scene.effect->params.params) {
+        const std::size_t words = param->properties.texts(ofx::param::kChoiceOption).size();
+        for (std::size_t i = 0; param->type == ofx::param::kChoice && i < words; ++i) {
+            has_menu = true;
+            held("params.chosen");
+            param->numbers[0] = double(i);
+            const int status = scene.stage.tell_change(*scene.effect, param->name);
+            if (status != ofx::kOk && status != ofx::kReplyDefault)
+                broken("params.chosen", "word " + std::to_string(i) + " of '" + param->name +
+                                            "' gives status " + std::to_string(status));
+        }
+    }
+    if (!has_menu) not_tried("params.chosen", "the plug-in has no menu");
 }
 
 namespace {

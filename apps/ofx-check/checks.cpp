@@ -52,6 +52,7 @@ std::vector<Check> all_checks() {
         {"threads", "threads.same", check_threads},
         {"reload", "reload.same", check_reload},
         {"extremes", "params.extremes", check_extremes},
+        {"menus", "params.chosen", check_menus},
         {"overlay", "overlay.survives", check_overlay},
         {"null handles", "host.null_handles", check_null_handles},
         {"no image", "host.no_image", check_no_image},

@@ -26,6 +26,7 @@ void check_instances(const Setup& setup);
 void check_threads(const Setup& setup);
 void check_reload(const Setup& setup);
 void check_extremes(const Setup& setup);
+void check_menus(const Setup& setup);
 void check_overlay(const Setup& setup);
 void check_missing_suite(const Setup& setup, const char* suite);
 void check_null_handles(const Setup& setup);

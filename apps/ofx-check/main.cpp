@@ -23,6 +23,7 @@ constexpr const char* kUsage =
     "  --plugin ID          the plug-in of that identifier, instead of the first\n"
     "  --param NAME=VALUE   value of a parameter: numbers with commas, the words of a menu, text; "
     "repeatable\n"
+    "  --edit NAME=VALUE    render: a value that the user gives, after all --param; repeatable, in order\n"
     "  --size WxH           size of the test pictures (default 96x64)\n"
     "  --timeout S          seconds that one check may take (default 60)\n"
     "  --check NAME         run this check alone; repeatable\n"
@@ -79,6 +80,8 @@ bool take_option(CommandLine& line, const std::string& option, const std::string
         line.job.output = value;
     else if (option == "--param" && split(value, name, text))
         line.setup.params[name] = text;
+    else if (option == "--edit" && split(value, name, text))
+        line.job.edits.emplace_back(name, text);
     else if (option == "--clip" && split(value, name, text))
         line.job.clips[name] = text;
     else if (option == "--time")

@@ -64,6 +64,20 @@ std::string no_parameter(const std::string& name, const std::string& value) {
     return "the plug-in has no parameter " + name + " that takes '" + value + "'";
 }
 
+// Sets the values that the project has, then those that the user gives, each with its actions.
+std::string set_all(Stage& stage, ofx::Effect& effect, const Setup& setup, const RenderJob& job,
+                    const FrameRequest& request) {
+    for (const auto& [name, value] : setup.params)
+        if (!set_param(effect, name, value)) return no_parameter(name, value);
+    for (const auto& [name, value] : job.edits) {
+        if (!set_param(effect, name, value)) return no_parameter(name, value);
+        const int status = stage.tell_change(effect, name, request);
+        if (status == ofx::kOk || status == ofx::kReplyDefault) continue;
+        return "the plug-in answers the change of " + name + " with status " + std::to_string(status);
+    }
+    return "";
+}
+
 }  // namespace
 
 std::string render_picture(const Setup& setup, const RenderJob& job) {
@@ -79,11 +93,11 @@ std::string render_picture(const Setup& setup, const RenderJob& job) {
     if (!stage.begin()) return stage.problem();
     auto effect = stage.create(cast);
     if (!effect) return stage.problem();
-    for (const auto& [name, value] : setup.params)
-        if (!set_param(*effect, name, value)) return no_parameter(name, value);
     FrameRequest request;
     request.time = job.time;
     request.scale = {job.scale, job.scale};
+    const std::string not_set = set_all(stage, *effect, setup, job, request);
+    if (!not_set.empty()) return not_set;
     const Rendered rendered = stage.render(*effect, request);
     std::string problem;
     if (!rendered.fine())

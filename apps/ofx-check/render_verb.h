@@ -5,11 +5,14 @@
 
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace ofx_check {
 
 struct RenderJob {
-    std::map<std::string, std::string> clips;  // FILE or FILE:CHANNEL by clip
+    std::map<std::string, std::string> clips;                // FILE or FILE:CHANNEL by clip
+    std::vector<std::pair<std::string, std::string>> edits;  // value by parameter, in the order of the user
     std::string output, context;
     double time = 1, scale = 1;
 };

@@ -45,6 +45,7 @@ constexpr std::array kRules{
     Rule{"params.default", kParameters, "a default lies between minimum and maximum"},
     Rule{"params.write_action", kParameters, "values are not set while rendering"},
     Rule{"params.extremes", kParameters, "minimum and maximum of each number render, or fail with a status"},
+    Rule{"params.chosen", kActions, "a user may choose every word of every menu"},
     Rule{"images.released", kImages, "each image is released, once, before its action returns"},
     Rule{"images.action", kImages, "images are fetched by actions that may"},
     Rule{"images.after_release", kImages, "the memory of a released image is not used"},

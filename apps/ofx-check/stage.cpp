@@ -112,6 +112,19 @@ int Stage::call(const char* action, const void* handle, ofx::PropertySet* in, of
     return status;
 }
 
+int Stage::tell_change(ofx::Effect& effect, const std::string& param, const FrameRequest& request) {
+    ofx::PropertySet around("in"), in("in");
+    around.with(ofx::kChangeReason, Texts{ofx::kUserEdited});
+    with_frame(in, request)
+        .with(ofx::kType, Texts{ofx::kTypeParameter})
+        .with(ofx::kName, Texts{param})
+        .with(ofx::kChangeReason, Texts{ofx::kUserEdited});
+    call(ofx::action::kBeginChanged, &effect, &around, nullptr);
+    const int status = call(ofx::action::kChanged, &effect, &in, nullptr);
+    call(ofx::action::kEndChanged, &effect, &around, nullptr);
+    return status;
+}
+
 bool Stage::begin() {
     if (!library_) library_ = std::make_unique<Library>(setup_.library, problem_);
     if (!library_->is_loaded()) return false;

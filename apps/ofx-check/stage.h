@@ -57,6 +57,9 @@ public:
     void destroy(std::unique_ptr<ofx::Effect> effect);
     // All actions of a frame, as the page "Rendering" orders them.
     Rendered render(ofx::Effect& effect, const FrameRequest& request = {});
+    // The three actions of a user's change of a parameter, whose value is set already. The status is that of
+    // OfxActionInstanceChanged.
+    int tell_change(ofx::Effect& effect, const std::string& param, const FrameRequest& request = {});
     // One action, its status checked.
     int call(const char* action, const void* handle, ofx::PropertySet* in, ofx::PropertySet* out);
 

@@ -53,6 +53,7 @@ inline constexpr const char* kApiVersion = "OfxPropAPIVersion";
 inline constexpr const char* kDescription = "OfxPropPluginDescription";
 inline constexpr const char* kInstanceData = "OfxPropInstanceData";
 inline constexpr const char* kChangeReason = "OfxPropChangeReason";
+inline constexpr const char* kTypeParameter = "OfxTypeParameter";
 inline constexpr const char* kUserEdited = "OfxChangeUserEdited";
 inline constexpr const char* kIsInteractive = "OfxPropIsInteractive";
 inline constexpr const char* kEffectInstance = "OfxPropEffectInstance";

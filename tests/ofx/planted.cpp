@@ -259,6 +259,9 @@ int describe_in_context(Effect* effect) {
     props->set_double(p, param::kDefault, 0, fault("bad_default") ? 40 : 4);
     props->set_double(p, param::kMin, 0, 0);
     props->set_double(p, param::kMax, 0, 16);
+    params->define(of_effect, param::kChoice, "shape", &p);
+    set(p, param::kChoiceOption, "square");
+    set(p, param::kChoiceOption, "cross", 1);
     if (fault("param_twice")) params->define(of_effect, "OfxParamTypeDouble", "radius", &p);
     return kOk;
 }
@@ -289,6 +292,7 @@ int main_entry(const char* name, const void* handle, PropertySet* in, PropertySe
     if (a == action::kRegionOfDefinition) return region(in, out, false, 0);
     if (a == action::kRegionsOfInterest) return region(in, out, true, radius_of(effect));
     if (a == action::kIsIdentity) return identity(effect, out);
+    if (a == action::kChanged) return fault("refuses_choice") ? kFailed : kReplyDefault;
     return fault("unknown_ok") ? kOk : kReplyDefault;
 }
 

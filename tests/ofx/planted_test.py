@@ -19,7 +19,7 @@ FAULTS = {
     "bad_index": "property.index", "bad_value": "property.value", "writes_host": "property.write",
     "stale_handle": "handles.valid", "undeclared_param": "params.declared", "param_twice": "params.once",
     "bad_default": "params.default", "sets_in_render": "params.write_action", "extreme": "params.extremes",
-    "leaks_image": "images.released", "releases_twice": "images.released", "fetch_in_identity": "images.action",
+    "refuses_choice": "params.chosen", "leaks_image": "images.released", "releases_twice": "images.released", "fetch_in_identity": "images.action",
     "after_release": "images.after_release", "writes_input": "images.input", "overruns": "images.bounds",
     "misses_row": "render.complete", "beyond_window": "render.window", "random": "render.repeat",
     "filter_fails": "render.contexts", "positive_rows": "rows.negative", "ignores_row_bytes": "rows.padding",

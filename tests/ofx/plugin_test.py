@@ -127,6 +127,12 @@ class Plugin(unittest.TestCase):
                                  ({"preset": "mine", "look": "own.look"}, "both given")):
                 self.assertIn(says, self.render("none.exr", params, *self.CLIPS, code=2).stderr)
 
+    def test_menus_write_the_names_of_presets_and_lenses(self):
+        for menu, word, flag in (("presetMenu", "achromat", "--preset"), ("lensMenu", "doublet", "--lens")):
+            self.same({"focusDistance": 4.8}, ["--focus", "4.8m", flag, word], (*self.CLIPS, "--edit", f"{menu}={word}"))
+        done = self.render("none.exr", {}, *self.CLIPS, "--edit", "presetMenu=acromat", code=2)
+        self.assertIn("no parameter presetMenu that takes 'acromat'", done.stderr)
+
     def test_three_names_are_exported(self):
         listing = self.command("nm", "-D", "--defined-only", os.environ["PETZVAL_OFX"]).stdout
         self.assertEqual([line.split()[-1] for line in listing.splitlines()],
