@@ -4,7 +4,6 @@
 #include <gegl-plugin.h>
 #include <math.h>
 #include <petzval/petzval_c.h>
-#include <string.h>
 
 typedef struct {
     GeglOperationComposer parent;
@@ -138,6 +137,7 @@ static void to_metres(float* depth, size_t count, double unit) {
             isfinite(depth[i]) && depth[i] > 0 && depth[i] < 1e9f ? (float)(depth[i] * unit) : INFINITY;
 }
 
+/* petzval_defocus() writes through the pointers: NOLINTNEXTLINE(readability-non-const-parameter) */
 static petzval_status make(const Defocus* self, float* rgba, float* depth, int width, int height) {
     const double* n = self->numbers;
     petzval_camera camera = {sizeof camera, n[FOCAL_LENGTH],   n[SENSOR_WIDTH],
@@ -146,11 +146,10 @@ static petzval_status make(const Defocus* self, float* rgba, float* depth, int w
                             rgba + 3,     16,    0};
     petzval_plane plane = {sizeof plane, width, height, PETZVAL_FLOAT, depth, 4, (ptrdiff_t)width * 4};
     petzval_look* look = NULL;
-    petzval_shot shot;
+    petzval_shot shot = {.size = sizeof shot};
     petzval_status status = look_of(self, &look);
     light.row_stride = (ptrdiff_t)width * 16;
-    memset(&shot, 0, sizeof shot);
-    shot.size = sizeof shot, shot.colour = &light, shot.depth_m = &plane, shot.camera = &camera;
+    shot.colour = &light, shot.depth_m = &plane, shot.camera = &camera;
     if (!status && !session()) status = PETZVAL_INTERNAL;
     if (!status) status = petzval_defocus(session(), &shot, look, NULL, &light, NULL);
     petzval_look_close(look);
@@ -162,10 +161,10 @@ static gboolean process(GeglOperation* operation, GeglBuffer* input, GeglBuffer*
     const GeglRectangle all = input ? *gegl_buffer_get_extent(input) : *result;
     const size_t count = (size_t)all.width * (size_t)all.height;
     const Babl* light = babl_format("RaGaBaA float");
-    float *rgba, *depth;
     (void)level;
     if (!input || !count) return TRUE;
-    rgba = g_try_malloc_n(count, 16), depth = g_try_malloc_n(count, 4);
+    float* rgba = g_try_malloc_n(count, 16);
+    float* depth = g_try_malloc_n(count, 4);
     if (!aux) {
         g_warning("petzval:defocus: connect depth to the pad aux");
     } else if (text_given(self_of(operation)->preset) && text_given(self_of(operation)->look)) {
@@ -193,15 +192,14 @@ static void class_init(gpointer class, gpointer data) {
     const GParamFlags flags = G_PARAM_READWRITE | G_PARAM_CONSTRUCT | G_PARAM_STATIC_STRINGS;
     GObjectClass* object = class;
     GeglOperationClass* operation = class;
-    guint i;
     (void)data;
     object->set_property = set_property, object->get_property = get_property, object->finalize = finalize;
-    for (i = 0; i < G_N_ELEMENTS(NUMBERS); ++i)
+    for (guint i = 0; i < G_N_ELEMENTS(NUMBERS); ++i)
         g_object_class_install_property(
             object, i + 1,
             g_param_spec_double(NUMBERS[i].name, NUMBERS[i].label, NUMBERS[i].what, NUMBERS[i].least,
                                 NUMBERS[i].most, NUMBERS[i].usual, flags));
-    for (i = 0; i < G_N_ELEMENTS(TEXTS); ++i)
+    for (guint i = 0; i < G_N_ELEMENTS(TEXTS); ++i)
         g_object_class_install_property(
             object, LENS + 1 + i,
             g_param_spec_string(TEXTS[i].name, TEXTS[i].label, TEXTS[i].what, "", flags));

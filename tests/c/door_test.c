@@ -43,9 +43,8 @@ static float* at(picture* p, int x, int y, int bottom_up) {
 }
 
 static void paint(picture* p, int bottom_up) {
-    int x, y;
-    for (y = 0; y < HEIGHT; ++y)
-        for (x = 0; x < WIDTH; ++x) {
+    for (int y = 0; y < HEIGHT; ++y)
+        for (int x = 0; x < WIDTH; ++x) {
             float* pixel = at(p, x, y, bottom_up);
             pixel[0] = pixel[1] = pixel[2] = x == 20 && y == 16 ? 100.0f : 0.0f;
             pixel[3] = 1;
@@ -87,11 +86,10 @@ static void test_a_lamp_becomes_a_disc_of_the_same_light(petzval_session* sessio
     static picture in, out;
     petzval_report* report = NULL;
     double light = 0;
-    int x, y;
     paint(&in, 0);
     expect(defocus(session, NULL, &in, &out, 0, NULL, &report) == PETZVAL_OK, "a frame");
-    for (y = 0; y < HEIGHT; ++y)
-        for (x = 0; x < WIDTH; ++x) light += out.rgba[y][x][0];
+    for (int y = 0; y < HEIGHT; ++y)
+        for (int x = 0; x < WIDTH; ++x) light += out.rgba[y][x][0];
     expect(fabs(light - 100) < 0.1, "a disc has the light of its lamp");
     expect(out.rgba[16][20][0] > 0.5f && out.rgba[16][20][0] < 5, "spread over some 80 pixels");
     expect(strstr(petzval_report_json(report), "\"engine\": \"scatter\"") != NULL,
@@ -101,13 +99,13 @@ static void test_a_lamp_becomes_a_disc_of_the_same_light(petzval_session* sessio
 
 static void test_rows_may_lie_bottom_up(petzval_session* session) {
     static picture down_in, down_out, up_in, up_out;
-    int x, y, same = 1;
+    int same = 1;
     paint(&down_in, 0);
     paint(&up_in, 1);
     expect(defocus(session, NULL, &down_in, &down_out, 0, NULL, NULL) == PETZVAL_OK, "top-down");
     expect(defocus(session, NULL, &up_in, &up_out, 1, NULL, NULL) == PETZVAL_OK, "bottom-up");
-    for (y = 0; y < HEIGHT; ++y)
-        for (x = 0; x < WIDTH; ++x)
+    for (int y = 0; y < HEIGHT; ++y)
+        for (int x = 0; x < WIDTH; ++x)
             same = same && memcmp(at(&down_out, x, y, 0), at(&up_out, x, y, 1), 4 * sizeof(float)) == 0;
     expect(same, "the same picture either way up, bit for bit");
 }
@@ -125,7 +123,6 @@ static void test_looks(petzval_session* session) {
     static picture in, round, pentagon;
     petzval_look *look = NULL, *again = NULL;
     const char* json = NULL;
-    char* kept;
     paint(&in, 0);
     expect(petzval_look_new(&look) == PETZVAL_OK, "a look");
     expect(defocus(session, look, &in, &round, 0, NULL, NULL) == PETZVAL_OK, "a round disc");
@@ -137,8 +134,9 @@ static void test_looks(petzval_session* session) {
            "an unknown field is refused");
     expect(strstr(petzval_error_text(), "lens.blades") != NULL, "with the field that was meant");
     expect(petzval_look_json(look, &json) == PETZVAL_OK, "as JSON");
-    kept = malloc(strlen(json) + 1);
-    strcpy(kept, json);
+    const size_t bytes = strlen(json) + 1;
+    char* kept = malloc(bytes);
+    memcpy(kept, json, bytes);
     expect(petzval_look_from_json(kept, &again) == PETZVAL_OK, "and back");
     expect(petzval_look_json(again, &json) == PETZVAL_OK && strcmp(json, kept) == 0, "the same");
     free(kept);
@@ -201,9 +199,8 @@ static int pool_width(void* host) {
     return 3;
 }
 static void pool_run(void* host, int count, void (*body)(void* context, int index), void* context) {
-    int i;
     ((pool*)host)->runs += 1;
-    for (i = count - 1; i >= 0; --i) {
+    for (int i = count - 1; i >= 0; --i) {
         body(context, i);
         ((pool*)host)->bodies += 1;
     }
@@ -240,7 +237,7 @@ static void test_a_region_is_a_crop_of_the_whole(petzval_session* session) {
     const petzval_plane plane = radii_plane();
     petzval_shot shot = {0};
     petzval_control control = {0};
-    int x, y, same = 1, margin = 0;
+    int same = 1, margin = 0;
     paint(&in, 0);
     colour = pixels_of(&in, 0);
     shot.size = sizeof shot;
@@ -261,8 +258,8 @@ static void test_a_region_is_a_crop_of_the_whole(petzval_session* session) {
     control.region.x1 = X + W;
     control.region.y1 = Y + H;
     expect(petzval_defocus(session, &shot, NULL, &control, &into, NULL) == PETZVAL_OK, "a region");
-    for (y = 0; y < H; ++y)
-        for (x = 0; x < W; ++x)
+    for (int y = 0; y < H; ++y)
+        for (int x = 0; x < W; ++x)
             same = same && memcmp(part[y][x], out.rgba[Y + y][X + x], sizeof part[0][0]) == 0;
     expect(same, "bit for bit");
     control.region.x1 += 1;
@@ -290,13 +287,13 @@ static void test_what_lies_behind_and_lights(petzval_session* session) {
     petzval_look* look = NULL;
     petzval_control control = {0};
     petzval_usage usage = {0};
-    int i, asked = 0;
+    int asked = 0;
     paint(&in, 0);
     colour = pixels_of(&in, 0);
     shot.size = sizeof shot;
     shot.colour = &colour;
     shot.radii_px = &plane;
-    for (i = 0; i < WIDTH * HEIGHT; ++i) {
+    for (int i = 0; i < WIDTH * HEIGHT; ++i) {
         const petzval_deep_sample s = {0.2f, 0.4f, 0.6f, 1, 9, 9};
         radii[i / WIDTH][i % WIDTH] = i % WIDTH < 24 ? -6 : 9;
         samples[i] = s;
@@ -309,7 +306,7 @@ static void test_what_lies_behind_and_lights(petzval_session* session) {
     behind.height = HEIGHT;
     behind.first = first;
     behind.samples = samples;
-    behind.sample_count = WIDTH * HEIGHT;
+    behind.sample_count = (uint64_t)WIDTH * HEIGHT;
     shot.behind = &behind;
     expect(petzval_defocus(session, &shot, NULL, NULL, &into, NULL) == PETZVAL_OK, "with what lies behind");
     expect(memcmp(&out, &bare, sizeof out) != 0, "which is seen past the edge");
@@ -342,7 +339,6 @@ static void test_a_mask_limits_the_effect(petzval_session* session) {
     const petzval_plane plane = radii_plane();
     petzval_plane mask = plane;
     petzval_shot shot = {0};
-    int x, y;
     paint(&in, 0);
     colour = pixels_of(&in, 0);
     shot.size = sizeof shot;
@@ -350,12 +346,12 @@ static void test_a_mask_limits_the_effect(petzval_session* session) {
     shot.radii_px = &plane;
     expect(petzval_defocus(session, &shot, NULL, NULL, &into, NULL) == PETZVAL_OK, "everywhere");
     whole = out;
-    for (y = 0; y < HEIGHT; ++y)
-        for (x = 0; x < WIDTH; ++x) shares[y][x] = x < WIDTH / 2 ? 1.f : 0.f;
+    for (int y = 0; y < HEIGHT; ++y)
+        for (int x = 0; x < WIDTH; ++x) shares[y][x] = x < WIDTH / 2 ? 1.f : 0.f;
     mask.data = shares;
     shot.mask = &mask;
     expect(petzval_defocus(session, &shot, NULL, NULL, &into, NULL) == PETZVAL_OK, "with a mask");
-    for (y = 0; y < HEIGHT; ++y)
+    for (int y = 0; y < HEIGHT; ++y)
         expect(memcmp(out.rgba[y], whole.rgba[y], sizeof out.rgba[y] / 2) == 0 &&
                    memcmp(out.rgba[y][WIDTH / 2], in.rgba[y][WIDTH / 2], sizeof out.rgba[y] / 2) == 0,
                "a row is blurred where the mask is 1, and as given where it is 0");
@@ -380,7 +376,6 @@ static void test_all_is_compared_before_anything_is_read(petzval_session* sessio
     petzval_light light = {0};
     petzval_shot shot = {0};
     petzval_look* look = NULL;
-    int i;
     const double aspects[] = {1e7, 1e9, 1e300, -1, NAN, INFINITY};
     const ptrdiff_t strides[] = {0, 3, -3, PTRDIFF_MAX, PTRDIFF_MIN};
     paint(&in, 0);
@@ -391,12 +386,12 @@ static void test_all_is_compared_before_anything_is_read(petzval_session* sessio
     expect(petzval_defocus(session, &shot, NULL, NULL, &bad_out, NULL) == PETZVAL_INVALID_ARGUMENT && \
                strstr(petzval_error_text(), name) != NULL,                                            \
            what)
-    for (i = 0; i < 6; ++i) {
+    for (int i = 0; i < 6; ++i) {
         shot.pixel_aspect = aspects[i];
         REFUSED("an aspect without end", "aspect");
     }
     shot.pixel_aspect = 0;
-    for (i = 0; i < 5; ++i) {
+    for (int i = 0; i < 5; ++i) {
         colour.pixel_stride = strides[i];
         REFUSED("a pixel stride", "pixel_stride");
         colour = right;
@@ -426,7 +421,7 @@ static void test_all_is_compared_before_anything_is_read(petzval_session* sessio
     deep.first = first;
     deep.samples = &sample;
     deep.sample_count = UINT64_MAX;
-    first[WIDTH * HEIGHT] = UINT64_MAX;
+    first[(size_t)WIDTH * HEIGHT] = UINT64_MAX;
     shot.deep = &deep;
     REFUSED("samples without end", "deep: sample_count");
     shot.deep = NULL;
@@ -445,9 +440,8 @@ static void test_numbers_of_threads(void) {
     const int counts[] = {-1, -2147483647, 2147483647, 1025};
     petzval_session_settings settings = {0};
     petzval_session* session = NULL;
-    int i;
     settings.size = sizeof settings;
-    for (i = 0; i < 4; ++i) {
+    for (int i = 0; i < 4; ++i) {
         settings.threads = counts[i];
         expect(petzval_session_open(&settings, &session) == PETZVAL_INVALID_ARGUMENT && session == NULL &&
                    strstr(petzval_error_text(), "threads") != NULL,
@@ -503,9 +497,8 @@ static void test_names(void) {
 int main(void) {
     petzval_session_settings settings = {0};
     petzval_session* session = NULL;
-    int x, y;
-    for (y = 0; y < HEIGHT; ++y)
-        for (x = 0; x < WIDTH; ++x) radii[y][x] = 5;
+    for (int y = 0; y < HEIGHT; ++y)
+        for (int x = 0; x < WIDTH; ++x) radii[y][x] = 5;
     settings.size = sizeof settings;
     settings.threads = 2;
     expect(petzval_session_open(&settings, &session) == PETZVAL_OK, "a session");
