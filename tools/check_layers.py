@@ -45,7 +45,7 @@ ALLOWED = {
     "scene_files": PIXELS | {"optics", "scene", "sequence", "shot", "files"},
     "lens_sheet": LENS | {"lens_facts", "files", "views", "look", "session", "shot"},
     "files": PIXELS | {"colour", "optics", "depth", "names"},
-    "ocio": PIXELS,
+    "ocio": PIXELS | {"colour"},
     "shot": PIXELS | {"laws", "optics", "depth", "names", "look", "session", "files"},
     "sequence": PIXELS | {"optics", "depth", "colour", "names", "views", "engine/waist", "lens_facts", "look", "session", "shot", "files"},
     "lens_facts": LENS,

@@ -2,6 +2,7 @@
 // library itself knows nothing of it.
 #pragma once
 
+#include "petzval/develop.h"
 #include "petzval/export.h"
 #include "petzval/image.h"
 #include "petzval/result.h"
@@ -33,5 +34,14 @@ struct OcioPicture {
 // the available ones), InvalidFile (the config cannot be used).
 PETZVAL_API Result<OcioPicture> ocio_codes(View<const Rgba> picture, const OcioView& view = {},
                                            int threads = 0, Workers* workers = nullptr);
+
+// A text as people type it: "DISPLAY,VIEW", "DISPLAY", or "default" for the config's own.
+PETZVAL_API OcioView ocio_view(const std::string& text);
+
+// Exposes the light and replaces it by ocio_codes(), in the form of ShotRunHost::to_display: `settings` then
+// hold the remaining steps, dither and rounding; `used` names display, view and space. Errors: those of
+// ocio_codes().
+PETZVAL_API Status show_by_ocio(Picture& light, DevelopSettings& settings, const OcioView& view,
+                                std::string& used, std::vector<std::string>& warnings);
 
 }  // namespace petzval

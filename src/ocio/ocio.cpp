@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <system_error>
+#include <utility>
 
 namespace petzval {
 namespace {
@@ -164,6 +165,27 @@ Result<OcioPicture> ocio_codes(View<const Rgba> picture, const OcioView& view, i
         return Error{ErrorCode::InvalidFile,
                      "$OCIO " + std::string(path) + ": cannot be used: " + first_line(wrong.what())};
     }
+}
+
+OcioView ocio_view(const std::string& text) {
+    if (text == "default") return {};
+    const std::size_t comma = text.find(',');
+    return {text.substr(0, comma), comma == std::string::npos ? "" : text.substr(comma + 1), {}};
+}
+
+Status show_by_ocio(Picture& light, DevelopSettings& settings, const OcioView& view, std::string& used,
+                    std::vector<std::string>& warnings) {
+    const float exposure = float(std::exp2(settings.exposure_stops));
+    for (std::size_t i = 0; i < light.size(); ++i) light.pixels()[i] *= exposure;
+    auto shown = ocio_codes(light, view, settings.threads, settings.workers);
+    if (!shown) return shown.error();
+    light = std::move(shown->codes);
+    used = "OpenColorIO: display " + shown->display + ", view " + shown->view + ", from " + shown->space;
+    warnings.insert(warnings.end(), shown->warnings.begin(), shown->warnings.end());
+    settings.exposure_stops = 0;
+    settings.tone = ToneCurve::None;
+    settings.transfer = Transfer::Linear;
+    return Done{};
 }
 
 }  // namespace petzval

@@ -2,7 +2,6 @@
 
 #include "flags/values.h"
 
-#include <cmath>
 #include <utility>
 
 #ifdef PETZVAL_OCIO
@@ -36,19 +35,6 @@ Status OcioFlags::try_out() const {
     return show(light, settings, used, warnings);
 }
 
-Status OcioFlags::show(Picture& light, DevelopSettings& settings, std::string& used,
-                       std::vector<std::string>& warnings) const {
-    const float exposure = float(std::exp2(settings.exposure_stops));
-    for (std::size_t i = 0; i < light.size(); ++i) light.pixels()[i] *= exposure;
-    auto found = codes(light, settings.threads, used, warnings);
-    if (!found) return found.error();
-    light = std::move(*found);
-    settings.exposure_stops = 0;
-    settings.tone = ToneCurve::None;
-    settings.transfer = Transfer::Linear;
-    return Done{};
-}
-
 ShotRunHost OcioFlags::display(FrameLoopHost host) const {
     ShotRunHost shown;
     static_cast<FrameLoopHost&>(shown) = std::move(host);
@@ -61,22 +47,14 @@ ShotRunHost OcioFlags::display(FrameLoopHost host) const {
 }
 
 #ifdef PETZVAL_OCIO
-Result<Picture> OcioFlags::codes(View<const Rgba> light, int threads, std::string& used,
-                                 std::vector<std::string>& warnings) const {
-    OcioView wanted{{}, {}, space};
-    if (view != "default") {
-        const std::size_t comma = view.find(',');
-        wanted.display = view.substr(0, comma);
-        if (comma != std::string::npos) wanted.view = view.substr(comma + 1);
-    }
-    auto shown = ocio_codes(light, wanted, threads);
-    if (!shown) return shown.error();
-    used = "OpenColorIO: display " + shown->display + ", view " + shown->view + ", from " + shown->space;
-    warnings.insert(warnings.end(), shown->warnings.begin(), shown->warnings.end());
-    return std::move(shown->codes);
+Status OcioFlags::show(Picture& light, DevelopSettings& settings, std::string& used,
+                       std::vector<std::string>& warnings) const {
+    OcioView wanted = ocio_view(view);
+    wanted.space = space;
+    return show_by_ocio(light, settings, wanted, used, warnings);
 }
 #else
-Result<Picture> OcioFlags::codes(View<const Rgba>, int, std::string&, std::vector<std::string>&) const {
+Status OcioFlags::show(Picture&, DevelopSettings&, std::string&, std::vector<std::string>&) const {
     return Error{
         ErrorCode::InvalidArgument,
         "--ocio: this petzval was built without OpenColorIO; install libopencolorio-dev and build again"};

@@ -32,10 +32,6 @@ struct OcioFlags {
                 std::vector<std::string>& warnings) const;
     // The host with show() as its display, where --ocio was given.
     ShotRunHost display(FrameLoopHost host) const;
-
-private:
-    Result<Picture> codes(View<const Rgba> light, int threads, std::string& used,
-                          std::vector<std::string>& warnings) const;
 };
 
 }  // namespace petzval::cli
