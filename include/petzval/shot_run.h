@@ -111,6 +111,10 @@ struct ShotRunSettings {
     std::vector<std::string> warnings = {};
 };
 
+// Refuses files and choices that the view or the engine has no use for, by their fields. Runs call it
+// themselves. Errors: InvalidArgument.
+PETZVAL_API Status check(const ShotRunSettings& settings);
+
 // Settings as JSON: {"input", "output", "frames": "1001-1100", "look": {…}, "camera": {"f_number", …},
 // "focus_at": [x, y], "depth": FILE, "depth_kind", "depth_channel", "layer", "layers": […], "behind",
 // "holdout", "mask", "merge": […], "lights", "track", "rack": […], "focus_speed", "temporal", "existing":

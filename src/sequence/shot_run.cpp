@@ -173,6 +173,7 @@ FrameWork ShotRun::State::work() {
 
 Status ShotRun::State::prepare() {
     if (is_ready) return Done{};
+    if (const Status fine = check(settings); !fine) return fine;
     auto read = read_track(settings);
     if (!read) return read.error();
     track = std::move(*read);
@@ -230,6 +231,7 @@ Status ShotRun::run() {
 }
 
 Result<FrameRecord> make_picture(Session& session, const ShotRunSettings& settings, const ShotRunHost& host) {
+    if (const Status fine = check(settings); !fine) return fine.error();
     const FrameContext context;
     const auto record = sequence::make_frame(session, settings, host, context);
     return record ? frame_record(sequence::as_text(*record)) : Result<FrameRecord>(record.error());

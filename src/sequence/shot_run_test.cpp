@@ -163,6 +163,31 @@ TEST_F(ShotRunTest, ASinglePictureIsARunOfOneFrame) {
     EXPECT_EQ(bytes("one.exr"), bytes("same.exr"));
 }
 
+TEST(ShotRunSettings, ChoicesWithoutUseForTheViewAreRefusedByTheirField) {
+    ShotRunSettings all;
+    all.view = ShotView::Coc;
+    EXPECT_TRUE(check(all));
+    const auto field = [&](const auto& change) {
+        ShotRunSettings changed = all;
+        change(changed);
+        const Status fine = check(changed);
+        return fine ? std::string() : fine.error().field;
+    };
+    EXPECT_EQ(field([](auto& s) { s.region = Rect{0, 0, 1, 1}; }), "shot.region");
+    EXPECT_EQ(field([](auto& s) { s.overscan_px = 4; }), "shot.overscan_px");
+    EXPECT_EQ(field([](auto& s) { s.source.mask = "m.exr"; }), "shot.mask");
+    EXPECT_EQ(field([](auto& s) { s.source.holdout = "h.exr"; }), "shot.holdout");
+    EXPECT_EQ(field([](auto& s) { s.source.read.layers = {"all"}; }), "read.layers");
+    EXPECT_EQ(field([](auto& s) { s.source.lights = "p.csv"; }), "shot.lights");
+    EXPECT_EQ(field([](auto& s) { s.view = ShotView::BlurSmall; }), "job.view") << "a buffer of gaussian";
+    EXPECT_EQ(field([](auto& s) { s.view = ShotView::Levels, s.look.engine = "gather"; }), "job.view");
+    all.view = ShotView::Alpha;
+    EXPECT_EQ(field([](auto& s) { s.source.mask = "m.exr"; }), "");
+    EXPECT_EQ(field([](auto& s) { s.source.read.layers = {"all"}; }), "read.layers");
+    all.view = ShotView::Beauty;
+    EXPECT_EQ(field([](auto& s) { s.region = Rect{0, 0, 1, 1}; }), "");
+}
+
 TEST(ShotRunSettings, WrongJsonIsRefusedByItsKey) {
     for (const auto& [text, says] : std::initializer_list<std::pair<const char*, const char*>>{
              {"", "not JSON"},

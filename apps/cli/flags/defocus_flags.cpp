@@ -2,6 +2,8 @@
 
 #include "petzval/session.h"
 
+#include "flags/fields.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -148,21 +150,8 @@ void DefocusFlags::check(const Verb& verb) {
 
 // Flags that --view or --engine have no use for.
 void DefocusFlags::check_view() const {
-    const std::string& engine = look.look().engine;
-    if (!points.empty() && engine != "sprites")
-        throw UsageError("--points has no effect without --engine sprites");
-    if (gaussian_view(view) && engine != "gaussian")
-        throw UsageError(std::string("--view ") + name_of(view) + " is a buffer of --engine gaussian");
-    if (scatter_view(view) != ScatterView::Result && engine != "scatter")
-        throw UsageError(std::string("--view ") + name_of(view) + " shows what --engine scatter does, not " +
-                         engine);
-    const bool computes = view == ShotView::Beauty || view == ShotView::Alpha;
-    const std::string here = " has no effect on --view " + std::string(name_of(view));
-    if (!input.holdout.empty() && !computes) throw UsageError("--holdout" + here);
-    if (region && view != ShotView::Beauty) throw UsageError("--roi" + here);
-    if (overscan_px && !computes) throw UsageError("--overscan" + here);
-    if (!input.mask.empty() && !computes) throw UsageError("--mask" + here);
-    if (!input.read.layers.empty() && view != ShotView::Beauty) throw UsageError("--layers" + here);
+    if (const Status fine = petzval::check(settings()); !fine)
+        throw UsageError(in_flags(fine.error().message));
     if (view == ShotView::Beauty) return;
     if (look.is_typed("plate.expand_highlights"))
         throw UsageError("--expand-highlights is part of --view beauty only");
