@@ -80,7 +80,8 @@ inline std::vector<std::string> device_names() {
     return names;
 }
 
-// True if GPUs draw the plans of an engine. (realtime_test.cpp holds the laws of the real-time pass.)
+// True if GPUs draw the plans of an engine. (realtime_test.cpp and realtime_lamps_test.cpp hold the laws of
+// the real-time pass.)
 inline bool is_drawn_by_gpus(const std::string& engine) { return engine != "reference"; }
 
 // Keeps devices open from law to law, as drivers take long to start, and lets go of them before the process

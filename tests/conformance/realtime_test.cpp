@@ -1,65 +1,12 @@
-// Laws of the pass for real time, on every device that can draw it: what it may not do however large a radius
-// is, however depth jitters, however little a camera moves.
-#include "petzval/devices.h"
-#include "petzval/lens_kernel.h"
-#include "petzval/session.h"
-
-#include "shots.h"
+// Laws of the real-time pass on every device that can draw it: surfaces, silhouettes, small blurs,
+// steadiness.
+#include "realtime_sessions.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
-#include <utility>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 namespace petzval::conformance {
 namespace {
-
-// A session on each GPU that there is.
-class Realtime : public testing::Test {
-protected:
-    void SetUp() override {
-        for (const DeviceFacts& device : devices()) {
-            if (device.name == "cpu" || !device.lacks.empty()) continue;
-            SessionSettings settings;
-            settings.device = device.name;
-            sessions_.emplace_back(settings);
-        }
-        if (sessions_.empty()) GTEST_SKIP() << why_no_gpu();
-    }
-    static Picture drawn(Session& session, const Shot& shot, Quality quality = Quality::Standard) {
-        DefocusJob job = shot.job("realtime");
-        job.quality = quality;
-        auto report = session.defocus(job);
-        EXPECT_TRUE(report) << report.error().message;
-        return report ? std::move(report->image) : Picture(shot.colour.width(), shot.colour.height());
-    }
-    std::vector<Session> sessions_;
-};
-
-double sum_of(const Picture& p) {
-    double sum = 0;
-    for (std::size_t i = 0; i < p.size(); ++i) sum += double(p.pixels()[i].g);
-    return sum;
-}
-
-// Difference as a fraction of the light of b.
-double light_apart(const Picture& a, const Picture& b) {
-    double apart = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) apart += double(std::abs(a.pixels()[i].g - b.pixels()[i].g));
-    return apart / sum_of(b);
-}
-
-double rms(const Picture& a, const Picture& b) {
-    double squares = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        const Rgba d = a.pixels()[i] - b.pixels()[i];
-        squares += double(d.r * d.r + d.g * d.g + d.b * d.b) / 3;
-    }
-    return std::sqrt(squares / double(a.size()));
-}
 
 // A bar in front, `width` pixels wide, over noise or one colour.
 Shot bar_in_front(int width, float coc_px, bool noise) {
@@ -220,49 +167,6 @@ TEST_F(Realtime, IsSteadyUnderACameraThatMovesByATenthOfAPixel) {
     }
 }
 
-// Light and centroid of a spot above a uniform ground.
-struct Spot {
-    double light = 0, x = 0, y = 0;
-};
-Spot spot_of(const Picture& p, double ground) {
-    Spot spot;
-    for (int y = 0; y < p.height(); ++y)
-        for (int x = 0; x < p.width(); ++x) {
-            const double more = double(p(x, y).g) - ground;
-            spot.light += more, spot.x += more * x, spot.y += more * y;
-        }
-    spot.x /= spot.light, spot.y /= spot.light;
-    return spot;
-}
-
-// The law holds for any pixel of a cell and of a tile, also beside the border of a tile (16 pixels).
-TEST_F(Realtime, ALampKeepsItsLightAndItsPlace) {
-    constexpr double kGround = 0.01, kLamp = 800;
-    for (Session& session : sessions_)
-        for (const float coc_px : {-20.0f, -3.3f, 0.3f, 0.8f, 1.4f, 50.0f})
-            for (const int at : {79, 80}) {
-                Shot shot = flat(160, 160, {0.01f, 0.01f, 0.01f, 1}, coc_px);
-                shot.colour(at, at - 1) = {float(kLamp), float(kLamp), float(kLamp), 1};
-                const Spot spot = spot_of(drawn(session, shot), kGround);
-                EXPECT_NEAR(spot.light / kLamp, 1, 0.02) << coc_px;
-                EXPECT_NEAR(spot.x, at, 0.03) << coc_px;
-                EXPECT_NEAR(spot.y, at - 1, 0.03) << coc_px;
-            }
-}
-
-TEST_F(Realtime, ALampHasTheShapeThatFinalFramesHave) {
-    Shot shot = flat(120, 100, {0.01f, 0.01f, 0.01f, 1}, 14);
-    shot.colour(31, 33) = {500, 400, 300, 1}, shot.colour(96, 31) = {300, 400, 500, 1};
-    shot.colour(64, 70) = {400, 400, 400, 1};
-    const auto final = defocus(shot.job("scatter"));
-    ASSERT_TRUE(final) << final.error().message;
-    for (Session& session : sessions_) {
-        const Picture made = drawn(session, shot);
-        EXPECT_LT(light_apart(made, final->image), 0.02);
-        EXPECT_EQ(largest_difference(made, drawn(session, shot)), 0) << "not twice the same bits";
-    }
-}
-
 // A lamp between four pixels, moved by a tenth of one: its disc moves as far, and is no other disc.
 TEST_F(Realtime, ALampIsSteadyUnderACameraThatMovesByATenthOfAPixel) {
     const auto scene = [](float shift) {
@@ -279,162 +183,12 @@ TEST_F(Realtime, ALampIsSteadyUnderACameraThatMovesByATenthOfAPixel) {
         Picture before = drawn(session, scene(0));
         for (int i = 1; i <= 10; ++i) {
             Picture after = drawn(session, scene(0.1f * float(i)));
-            const Spot from = spot_of(before, 0.01), to = spot_of(after, 0.01);
+            const Centroid from = centroid_of(before, 0.01), to = centroid_of(after, 0.01);
             EXPECT_NEAR(to.x - from.x, 0.1, 0.02) << i;
             EXPECT_NEAR(to.light / from.light, 1, 0.01) << i;
             EXPECT_LT(largest_difference(before, after), 0.15f * kDisc) << i;
             before = std::move(after);
         }
-    }
-}
-
-// Lamps over the field, behind focus and in front of it: each has the kernel of its own place. Three of them
-// are near nodes of the zones; the one at (60, 60) is between four.
-TEST_F(Realtime, ALampHasTheKernelOfItsPlaceInTheField) {
-    constexpr int kWidth = 320, kHeight = 180;
-    Shot shot = flat(kWidth, kHeight, {}, 0);
-    DefocusJob job = shot.job("realtime");
-    job.camera = {50, 36, 4, 2};
-    const LensMount mount{job.camera, kWidth, kHeight, 1};
-    struct {
-        double cats_eye;
-        const char* lens;
-        double most_at_node, most_between;
-    } const kinds[] = {{0.8, "ideal", 0.1, 0.1}, {0, "petzval-portrait", 0.2, 0.6}};
-    for (const auto& kind : kinds)
-        for (const float coc_px : {16.0f, -16.0f})
-            for (const auto [x, y] : {std::pair{40, 40}, {280, 140}, {60, 60}, {160, 90}}) {
-                job.lens.cats_eye = kind.cats_eye, job.lens.name = kind.lens;
-                shot = flat(kWidth, kHeight, {}, coc_px);
-                shot.colour(x, y) = {1000, 1000, 1000, 1};
-                const FieldPosition field = job.place.field().field_at(x, y);
-                const auto disc = lens_point_spread(job.lens, mount, double(coc_px), field.x, field.y, 79);
-                ASSERT_TRUE(disc) << disc.error().message;
-                for (Session& session : sessions_) {
-                    job.colour = shot.colour, job.coc_px = shot.coc_px;
-                    const auto made = session.defocus(job);
-                    ASSERT_TRUE(made) << made.error().message;
-                    double apart = 0;
-                    for (int v = 0; v < 79; ++v)
-                        for (int u = 0; u < 79; ++u)
-                            apart += std::abs(double(made->image(x + u - 39, y + v - 39).g) / 1000 -
-                                              double(disc->weights(u, v).g));
-                    EXPECT_LT(apart, x == 60 ? kind.most_between : kind.most_at_node)
-                        << kind.lens << " " << coc_px << " at " << x << ", " << y;
-                }
-            }
-}
-
-// A lamp behind a bar in focus, and behind one that is half as blurred: its light falls beside them alone.
-TEST_F(Realtime, ALampDoesNotShineThroughWhatIsNearer) {
-    for (Session& session : sessions_)
-        for (const float bar_px : {0.0f, 12.0f}) {
-            Shot shot = flat(120, 80, {0.01f, 0.01f, 0.01f, 1}, 24);
-            shot.colour(50, 40) = {900, 900, 900, 1};
-            const Picture open = drawn(session, shot);
-            for (int y = 0; y < 80; ++y)
-                for (int x = 56; x < 75; ++x) shot.coc_px(x, y) = bar_px;
-            const Picture made = drawn(session, shot);
-            EXPECT_GT(open(66, 40).g, 0.3);
-            EXPECT_LT(made(66, 40).g, 0.1 * open(66, 40).g) << bar_px;
-            EXPECT_NEAR(made(38, 40).g / open(38, 40).g, 1, 0.02) << bar_px;
-        }
-}
-
-// And one behind a bar before focus is cut where the cone of its light meets the bar: lamp and bar are as
-// blurred, so half-way between them.
-TEST_F(Realtime, ALampIsCutByWhatStandsBeforeFocus) {
-    for (Session& session : sessions_) {
-        Shot shot = flat(120, 80, {0.01f, 0.01f, 0.01f, 1}, 14);
-        shot.colour(50, 40) = {900, 900, 900, 1};
-        const Picture open = drawn(session, shot);
-        for (int y = 0; y < 80; ++y)
-            for (int x = 68; x < 78; ++x) shot.coc_px(x, y) = -14;
-        const Picture made = drawn(session, shot);
-        EXPECT_GT(open(61, 40).g, 0.8);
-        EXPECT_LT(made(61, 40).g, 0.1 * open(61, 40).g);
-        EXPECT_NEAR(made(55, 40).g / open(55, 40).g, 1, 0.05);
-        EXPECT_NEAR(made(42, 40).g / open(42, 40).g, 1, 0.05);
-    }
-}
-
-// A lamp before focus and a bar twice as near on its left: what passes the bar there lands on the right.
-TEST_F(Realtime, ALampBeforeFocusIsCutByWhatIsNearer) {
-    const auto scene = [](bool has_bar) {
-        Shot shot = flat(120, 80, {0.01f, 0.01f, 0.01f, 1}, 0);
-        for (int y = 0; y < 80; ++y)
-            for (int x = 46; x < 64; ++x) {
-                if (has_bar && x < 55) shot.coc_px(x, y) = -28;
-                if (x > 56 && y > 36 && y < 44) shot.coc_px(x, y) = -14;
-            }
-        shot.colour(60, 40) = {900, 900, 900, 1};
-        return shot;
-    };
-    const Shot shot = scene(false), barred = scene(true);
-    const auto share_left = [](const Picture& open, const Picture& cut, int x) {
-        return (cut(x, 40).g - 0.01f) / (open(x, 40).g - 0.01f);
-    };
-    const auto open = defocus(shot.job("scatter")), cut = defocus(barred.job("scatter"));
-    ASSERT_TRUE(open && cut);
-    for (Session& session : sessions_) {
-        const Picture all = drawn(session, shot), made = drawn(session, barred);
-        for (const int x : {50, 57, 63, 70})
-            EXPECT_NEAR(share_left(all, made, x), share_left(open->image, cut->image, x), 0.1) << x;
-        EXPECT_LT(share_left(all, made, 70), 0.1);
-    }
-}
-
-// More wide discs than a pixel adds: lamps of a tile are merged, and nobody sees it. Taps show the part of
-// their light that discs of their radius bring anyway: with the most taps that part is not what is measured.
-TEST_F(Realtime, LampsThatAreTooManyKeepTheirLightAndTheirShape) {
-    Shot shot = flat(176, 160, {1e-3f, 1e-3f, 1e-3f, 1}, 60);
-    unsigned state = 1;
-    const auto random = [&](unsigned n) {
-        return int((state = state * 1664525u + 1013904223u) / 65536u % n);
-    };
-    for (int i = 0; i < 8 * 6 * 6; ++i) {
-        const int x = 40 + i % 6 * 16 + random(16), y = 32 + i / 6 % 6 * 16 + random(16);
-        shot.colour(x, y) = {400, 300 + 10 * float(random(20)), 200, 1};
-    }
-    const auto final = defocus(shot.job("scatter"));
-    ASSERT_TRUE(final) << final.error().message;
-    for (Session& session : sessions_) {
-        const Picture made = drawn(session, shot, Quality::Final);
-        EXPECT_NEAR(sum_of(made) / sum_of(final->image), 1, 0.01);
-        EXPECT_LT(light_apart(made, final->image), 0.02);
-        EXPECT_EQ(largest_difference(made, drawn(session, shot, Quality::Final)), 0)
-            << "not twice the same bits";
-    }
-}
-
-// A lamp behind, half covered by a leaf before focus whose depth its pixel has: its disc is not the leaf's,
-// which is wider.
-TEST_F(Realtime, ALampBesideALeafHasTheRadiusOfWhatIsBehind) {
-    Shot shot = flat(120, 80, {0.01f, 0.01f, 0.01f, 1}, 10);
-    for (int y = 0; y < 80; ++y)
-        for (int x = 0; x < 50; ++x) shot.coc_px(x, y) = -20;
-    shot.colour(49, 40) = {900, 900, 900, 1};
-    for (Session& session : sessions_) {
-        const Picture made = drawn(session, shot);
-        EXPECT_GT(made(56, 40).g, 1);
-        EXPECT_LT(made(63, 40).g, 0.05);
-    }
-}
-
-// A lamp in focus whose rim is filtered over its background and has the depth of that: no disc around it.
-TEST_F(Realtime, ALampInFocusHasNoHalo) {
-    Shot shot = flat(96, 64, {0.02f, 0.02f, 0.02f, 1}, 12);
-    for (int y = 26; y < 38; ++y)
-        for (int x = 42; x < 54; ++x) {
-            const bool is_rim = x == 42 || x == 53 || y == 26 || y == 37;
-            const float light = is_rim ? 20.0f : 60.0f;
-            shot.colour(x, y) = {light, light, light, 1};
-            if (!is_rim) shot.coc_px(x, y) = 0;
-        }
-    for (Session& session : sessions_) {
-        const Picture made = drawn(session, shot);
-        EXPECT_NEAR(made(48, 32).g, 60, 0.1);
-        for (const int x : {36, 39, 56, 60}) EXPECT_NEAR(made(x, 32).g, 0.02, 0.01) << x;
     }
 }
 
