@@ -72,7 +72,7 @@ Sum back_over(vec2 middle, float radius, float own_px, int which) {
     int first_of = first_weight + kFarSide + first_tap * kShares;
     for (int i = 0; i < taps; ++i, first_of += kShares) {
         const vec2 tap = tap_of(i).xy;
-        const vec4 there = read_cells(disc, tap, kBack);
+        const vec4 there = read_cells(disc, tap, kBack), light = read_cells(disc, tap, kBackLight);
         if (there.x == 0) continue;
         const float reaches = back_radius(there), ratio = reaches * per_own;
         float counts = which == kAlike ? 1.0 : 0.0;  // most taps are about as blurred
@@ -94,7 +94,7 @@ Sum back_over(vec2 middle, float radius, float own_px, int which) {
         }
         if (counts < 1) w *= counts;
         if (w.a == 0) continue;
-        sum.light += w * read_cells(disc, tap, kBackLight);
+        sum.light += w * light;
         sum.area += w.a * there.x;
     }
     // Not the largest: a mean of cells beside a silhouette has a radius between both.

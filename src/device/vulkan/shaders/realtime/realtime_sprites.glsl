@@ -46,6 +46,7 @@ vec4 kernel_at(int lamp, vec2 offset) {
     const vec2 share = place - vec2(low);
     const int first = group_lamps[lamp].first + low.y * side + low.x;
     const vec2 zone_share = group_lamps[lamp].zone_share;
+    if (zone_share == vec2(0)) return cell_at(first, side, share);
     vec4 sum = (1 - zone_share.x) * (1 - zone_share.y) * cell_at(first, side, share);
     if (zone_share.x > 0) sum += zone_share.x * (1 - zone_share.y) * cell_at(first + kOfZone, side, share);
     if (zone_share.y > 0) {
@@ -56,12 +57,14 @@ vec4 kernel_at(int lamp, vec2 offset) {
     return sum;
 }
 
+// Loops of steps are not unrolled: the registers would keep other groups out.
+
 // Visible share of a lamp behind focus from a pixel: on its way to (x, y) light has its radius at `from` and
 // none at `to`; an occluder with the remaining radius stops it there.
 float seen(vec2 from, vec2 to, float radius) {
     const int kSteps = 8;
     float hidden = 0;
-    for (int i = 1; i <= kSteps; ++i) {
+    [[dont_unroll]] for (int i = 1; i <= kSteps; ++i) {
         const float way = float(i) / float(kSteps);
         const ivec2 pixel = clamp(ivec2(floor(mix(from, to, way))), ivec2(0), at.size - 1);
         const float there = radius_at(pixel);
@@ -83,7 +86,7 @@ float let_through(vec2 from, vec2 to, float radius, float near_px) {
     const vec2 start = is_near ? from : to, way_px = is_near ? from - to : to - from;
     const float level = clamp(log2(0.5 * step_of * length(way_px)), 0.0, 3.0);
     float hidden = 0;
-    for (int i = 1; i <= kSteps; ++i) {
+    [[dont_unroll]] for (int i = 1; i <= kSteps; ++i) {
         const float way = float(i) * step_of;
         const vec2 place = (start + way * way_px) * 0.5 / vec2(8 * at.tiles);
         const vec3 near = textureLod(cells, vec3(place, kNear), level).xyz;
