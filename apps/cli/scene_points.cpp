@@ -1,12 +1,11 @@
 // petzval scene points: lights without a picture, for defocus --engine sprites --points.
-#include "petzval/scene.h"
-#include "petzval/shot.h"
+#include "petzval/shots/scene_files.h"
 
-#include "console/console.h"
 #include "console/report.h"
 #include "flags/flags.h"
 #include "flags/run_flags.h"
 #include "flags/values.h"
+#include "frames.h"
 #include "output.h"
 #include "verbs.h"
 
@@ -70,31 +69,14 @@ void PointsFlags::check(const Verb& verb) {
 }
 
 Status make_file(const PointsFlags& flags) {
-    const Stopwatch total;
-    if (flags.overwrite.skips({flags.output})) return Done{};
-    const PointSettings& s = flags.settings;
-    const auto points = make_points(flags.name, s);
-    if (!points) return points.error();
-    const std::string camera = plain(s.focal_length_mm) + " mm on a sensor " + plain(s.sensor_width_mm) +
-                               " mm wide, " + std::to_string(s.width) + " x " + std::to_string(s.height) +
-                               " px";
-    Status done = write_text(flags.output, lights_text(*points, {"petzval scene points " + flags.name +
-                                                                     ", seed " + std::to_string(s.seed),
-                                                                 "seen by " + camera}));
-    if (!done) return done;
-    note("wrote " + flags.output + ": " + std::to_string(points->size()) + " points, seen by " + camera);
-    if (flags.run.json.empty()) return Done{};
-    Json report = new_report("scene points");
-    report["input"] = flags.name;
-    report["output"] = flags.output;
-    report["parameters"] = {{"width", s.width},
-                            {"height", s.height},
-                            {"focal_length_mm", s.focal_length_mm},
-                            {"sensor_width_mm", s.sensor_width_mm},
-                            {"horizon", s.horizon},
-                            {"count", points->size()},
-                            {"seed", s.seed}};
-    return write_report(finished(std::move(report), total), flags.run.json);
+    PointsFile file{.set = flags.name, .settings = flags.settings};
+    file.output = flags.output;
+    file.existing = flags.overwrite.existing();
+    const auto made = make_points_file(file, terminal());
+    if (!made) return made.error();
+    return flags.run.json.empty() || made->record.empty()
+               ? Status(Done{})
+               : write_report(Json::parse(made->record), flags.run.json);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "petzval/shots/scene_files.h"
 
+#include "petzval/shot.h"
+
 #include "base/temporary_folder.h"
 
 #include <algorithm>
@@ -83,6 +85,23 @@ TEST_F(SceneFilesTest, EachFrameHasItsFilesAndItsRecord) {
     bool moves = false;
     for (std::size_t i = 0; i < two->depth.size(); ++i) moves = moves || differs(i);
     EXPECT_TRUE(moves) << "the scene moves from frame to frame";
+}
+
+TEST_F(SceneFilesTest, PointsAreReadBackAsLights) {
+    PointsFile points{.set = "city"};
+    points.settings.count = 5;
+    points.output = at("city.csv");
+    const auto made = make_points_file(points, host);
+    ASSERT_TRUE(made);
+    EXPECT_NE(made->record.find("\"count\":5"), std::string::npos) << made->record;
+    const auto lights = read_lights(points.output, {0, 0, 960, 540});
+    ASSERT_TRUE(lights);
+    EXPECT_EQ(lights->points.size(), 5u);
+    points.existing = ExistingOutputs::Keep;
+    EXPECT_EQ(make_points_file(points)->state, FrameRecord::State::Kept);
+    points.set = "none";
+    points.existing = ExistingOutputs::Replace;
+    EXPECT_FALSE(make_points_file(points));
 }
 
 }  // namespace

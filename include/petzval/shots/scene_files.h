@@ -45,4 +45,15 @@ PETZVAL_API Result<FrameRecord> make_scene_files(const SceneFiles& files, const 
 // above.
 PETZVAL_API FrameWork work_of(const SceneFiles& files, const FrameLoopHost& host);
 
+// The lights of a point set as a file for ShotSource::lights, whose first lines name the set and the camera.
+struct PointsFile {
+    std::string set;  // as make_points() takes it
+    PointSettings settings = {};
+    std::string output = {};  // .csv
+    ExistingOutputs existing = ExistingOutputs::Replace;
+};
+// The record is that of `petzval scene points --json`; of a file that is kept it is empty. Of `host`, only
+// `say` is called. Errors: those of make_points(); OutputFailed.
+PETZVAL_API Result<FrameRecord> make_points_file(const PointsFile& file, const FrameLoopHost& host = {});
+
 }  // namespace petzval
