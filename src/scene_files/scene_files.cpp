@@ -187,7 +187,7 @@ Result<FrameRecord> make_scene_files(const SceneFiles& files, const FrameLoopHos
 
 FrameWork work_of(const SceneFiles& files, const FrameLoopHost& host) {
     FrameWork work;
-    work.input = files.output;
+    work.input = files.scene;  // no file: frames are given
     work.keeps_what_is_there = files.existing == ExistingOutputs::Keep;
     work.files = [files](int frame) -> Result<FrameWork::Files> {
         const SceneFiles of = of_frame(files, frame);
@@ -195,12 +195,15 @@ FrameWork work_of(const SceneFiles& files, const FrameLoopHost& host) {
         if (!of.record_file.empty()) names.outputs.push_back(of.record_file);
         return names;
     };
-    work.make = [files, host](int frame, bool) -> Result<FrameRecord> {
+    work.make = [files, host](int frame, bool again) -> Result<FrameRecord> {
         const Stopwatch watch;
-        const SceneFiles of = of_frame(files, frame);
+        SceneFiles of = of_frame(files, frame);
+        if (again) of.existing = ExistingOutputs::Replace;  // what is there is damaged
         const auto made = make_scene_files(of, host);
         if (!made) return made.error();
-        return short_record(of, watch.seconds());
+        FrameRecord record = short_record(of, watch.seconds());
+        record.state = made->state;
+        return record;
     };
     return work;
 }

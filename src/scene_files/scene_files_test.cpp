@@ -87,6 +87,24 @@ TEST_F(SceneFilesTest, EachFrameHasItsFilesAndItsRecord) {
     EXPECT_TRUE(moves) << "the scene moves from frame to frame";
 }
 
+// A full disk may have cut a frame.
+TEST_F(SceneFilesTest, ADamagedFrameIsMadeAgainAndAWholeOneKept) {
+    files.output = at("s.####.exr");
+    files.existing = ExistingOutputs::Keep;
+    const auto run = [&] { return bool(FrameLoop({.frames = {2, 3}}, work_of(files, host), {}).run()); };
+    ASSERT_TRUE(run());
+    const auto size = fs::file_size(at("s.0002.exr"));
+    fs::resize_file(at("s.0002.exr"), size / 2);
+    const auto before = fs::last_write_time(at("s.0003.exr"));
+    ASSERT_TRUE(run());
+    EXPECT_EQ(fs::file_size(at("s.0002.exr")), size);
+    EXPECT_TRUE(read_frame(at("s.0002.exr")));
+    EXPECT_EQ(fs::last_write_time(at("s.0003.exr")), before);
+    files.existing = ExistingOutputs::Replace;
+    EXPECT_TRUE(run()) << "existing frames are replaced";
+    EXPECT_NE(fs::last_write_time(at("s.0003.exr")), before);
+}
+
 TEST_F(SceneFilesTest, PointsAreReadBackAsLights) {
     PointsFile points{.set = "city"};
     points.settings.count = 5;
