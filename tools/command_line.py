@@ -19,7 +19,9 @@ def page_of(program):
 
 
 def main():
-    *options, program = sys.argv[1:] or sys.exit(__doc__)
+    if sys.argv[1:] in ([], ["--help"]):
+        sys.exit(__doc__)
+    *options, program = sys.argv[1:]
     made = page_of(program)
     if options != ["--check"]:
         PAGE.write_text(made)

@@ -233,6 +233,9 @@ class Defocus(CommandLineTest):
         self.succeed("defocus", "in.exr", "-o", "out.exr", "-u")
         self.assertNotEqual(stamp(), first)
         self.succeed("defocus", "in.exr", "-o", "new.exr", "--no-clobber")
+        os.truncate(self.path("new.exr"), os.path.getsize(self.path("new.exr")) // 2)
+        self.assertIn("left alone (--no-clobber), though damaged or cut off",
+                      self.succeed("defocus", "in.exr", "-o", "new.exr", "--no-clobber").err)
         self.succeed("defocus", "in.exr", "-o", "new.exr", "--overwrite")
 
     def test_other_channels_and_attributes_are_carried_over(self):
