@@ -248,7 +248,7 @@ std::vector<LookRow> rows_of_engines() {
             "wgld: offset added to the depth of 0 to 1 (default: puts the focus into the band)"),
         row("Engine gaussian", "--depth-along", "gaussian.depth_along",
             one_of({{"axis", "\"axis\""}, {"ray", "\"ray\""}}),
-            "wgld: measure depth along the axis (default) or along the ray, as published"),
+            "wgld: measure depth along the axis (default) or along the ray"),
         row("Engine gaussian", "--depth-band-range", "gaussian.depth_band_range_m",
             value("NEAR,FAR", parse_range_m),
             "wgld: depths that map to 0 and 1, such as 0.1m,30m; default: the picture's range"),
