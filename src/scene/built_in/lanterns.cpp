@@ -1,6 +1,6 @@
 // Everything HexaDrive's demo of 2009 showed, in one picture: lamps far behind, in and close before focus,
 // all over the frame, so that a five-bladed aperture turns over, the barrel cuts discs towards the corners,
-// and sharp lamps throw stars. docs/explain/published.md photographs it.
+// and sharp lamps throw stars. docs/explain/published-levels.md shows it.
 #include "scene/built_in/lamps.h"
 #include "scene/built_in/scenes.h"
 #include "scene/textures.h"

@@ -1,5 +1,5 @@
 // Patterned tori, one behind the other, from before the lens to far behind focus: what WebGL pages show of
-// depth of field. They turn. docs/explain/published.md says more of them.
+// depth of field. They turn.
 #include "scene/built_in/scenes.h"
 #include "scene/textures.h"
 

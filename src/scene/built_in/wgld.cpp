@@ -1,6 +1,6 @@
 // The tori of wgld.org's article on depth of field, shaded after it: a texture, a diffuse share of at least
-// 0.1, a half-vector highlight of power 50, an ambient term (docs/explain/published.md says what differs);
-// from near 0.1 to far 30.
+// 0.1, a half-vector highlight of power 50, an ambient term (docs/explain/published-gaussian.md says what
+// differs); from near 0.1 to far 30.
 #include "scene/built_in/scenes.h"
 #include "scene/shading.h"
 #include "scene/textures.h"
