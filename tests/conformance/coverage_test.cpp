@@ -96,7 +96,7 @@ TEST_P(CoverageLaw, WhatIsBehindThickSmokeIsNotSeen) {
     const int width = traces() ? 16 : 60, height = traces() ? 12 : 40;
     const std::vector<Smoke> few{{40, 0.95f}}, many{{40, 0.95f}, {60, 0.9f}, {200, 0.5f}, {1000, 0.5f}};
     for (const auto& [count, alpha] : traces() ? few : many) {
-        const auto smoke = [&, alpha = alpha](int first) {
+        const auto smoke = [&, count = count, alpha = alpha](int first) {
             return DeepPicture::made_of(width, height, [&](int, int, std::vector<DeepSample>& samples) {
                 for (int i = 0; i < first; ++i) {
                     const float at = -9 + 12 * float(i) / float(count), light = i % 2 ? 0.4f : 0.6f;
