@@ -145,11 +145,8 @@ OutputState state_of(const std::vector<std::string>& outputs, const std::vector<
     if (existing == ExistingOutputs::Replace || outputs.empty()) return {};
     for (const std::string& path : outputs)
         if (!exists(path)) return {};
-    if (existing == ExistingOutputs::Keep) {
-        const bool is_cut = kind_of_output(outputs.front()) && !is_whole_picture(outputs.front());
-        return {true, listed(outputs) + ": already there, left alone (run.keep)" +
-                          (is_cut ? ", though damaged or cut off" : "")};
-    }
+    if (existing == ExistingOutputs::Keep)
+        return {true, listed(outputs) + ": already there, left alone (run.keep)"};
     std::error_code missing;
     auto oldest = fs::file_time_type::max();
     for (const std::string& path : outputs) oldest = std::min(oldest, fs::last_write_time(path, missing));

@@ -234,7 +234,12 @@ Result<FrameRecord> make_picture(Session& session, const ShotRunSettings& settin
     if (const Status fine = check(settings); !fine) return fine.error();
     const FrameContext context;
     const auto record = sequence::make_frame(session, settings, host, context);
-    return record ? frame_record(sequence::as_text(*record)) : Result<FrameRecord>(record.error());
+    if (!record) return record.error();
+    FrameRecord made = frame_record(sequence::as_text(*record));
+    // A FrameLoop makes such frames again; one picture that the user names is left alone.
+    if (made.state == FrameRecord::State::Kept && host.say && !is_whole_picture(settings.output))
+        host.say(Say::Warning, settings.output + ": left alone, though damaged or cut off");
+    return made;
 }
 
 Status sequence::make_black_frame(const ShotRunSettings& settings, const ShotRunSettings& like) {
