@@ -19,7 +19,7 @@ pixel for each of the four times that these cross memory.
 besides the scenes a plane with as many bright pixels in a thousand at 48 px. It draws on the first device of all.
 `glare` is not one: bloom and veil with the quick star, then with the final one, over the picture as it is, at any radius.
 `develop` is none either: light to codes of 8 bits, at any radius.
-Not in it: what is looked at and not hit, waiting, copies from and to the host. How near a GPU comes is not known yet.
+Not in it: what is looked at and not hit, waiting, copies from and to the host. docs/results/gpu.md has what two GPUs took.
 """
 import argparse
 import json
@@ -157,14 +157,15 @@ def page(given, device):
     text = []
     say = text.append
     say(f"# {device['name']}, {device['title']}\n")
-    say(f"{machine()}; `./dev bench gpu`." + (" A software driver: no milliseconds." if software else
-        f" Its memory copies {given.copied / 1e9:.0f} GB/s, reads and writes counted; the longest submission took "
-        f"{given.longest:.0f} ms.") + "\n")
+    say(f"{machine()}; `./dev bench gpu`." + (" A software driver: no milliseconds." if software else "") +
+        (f" Its memory copies {given.copied / 1e9:.0f} GB/s, reads and writes counted; the longest submission took "
+         f"{given.longest:.0f} ms." if rows and not software else "") + "\n")
     if "host" in given.engines:
         say("The real-time pass of a host, ms of the device.\n")
         say(table(["picture", "width", "radius", *REALTIME_PASSES, "all"], host_rows(given)) + "\n")
-    say(table(["engine", "scene", "width", "radius", "pass", "ms", "submissions", "multiply-adds/px", "G multiply-adds/s",
-               "bytes/px", "GB/s"], rows))
+    if rows:
+        say(table(["engine", "scene", "width", "radius", "pass", "ms", "submissions", "multiply-adds/px", "G multiply-adds/s",
+                   "bytes/px", "GB/s"], rows))
     if "scatter" in given.engines:
         say("\nThe model: no faster than this, by published bandwidth and rate; ms for the pass `composite`.\n")
         say(table(["scene", "radius", "size", "multiply-adds/px", "bytes/px", *DATA_SHEETS],

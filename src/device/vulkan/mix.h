@@ -9,8 +9,8 @@
 
 namespace petzval::device::vulkan {
 
-// Writes all of `out`, by bands of rows that take no more memory than this or are one row of the coarsest
-// blur's cells. What is drawn does not depend on it. Throws Failed.
+// Writes all of `out`, by bands of rows that take no more memory than this, or hold as many rows as surround
+// them. What is drawn does not depend on it. Throws Failed.
 void mix_blurs(Context& context, const engine::GaussianPlan& plan, Target out, const Control& control,
                std::size_t most_bytes = std::size_t(64) << 20);
 
