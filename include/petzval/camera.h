@@ -11,7 +11,7 @@ namespace petzval {
 // Position of the sensor when the picture was rendered; see CircleOfConfusion.
 enum class ImageScale {
     Rendered,  // one focal length behind the pinhole, as every renderer does
-    ThinLens,  // where a real thin lens focused at the focus distance has its image: it breathes
+    ThinLens,  // where a thin lens focused at the focus distance forms its image (focus breathing)
 };
 
 struct Camera {
@@ -22,15 +22,16 @@ struct Camera {
     ImageScale image_scale = ImageScale::Rendered;
 };
 
-// The artist's hand on top of physics; the defaults change nothing.
+// Artistic changes of the physical radius; the defaults change nothing.
 struct CocControls {
     double near_scale = 1;  // factor on radii in front of focus, >= 0
     double far_scale = 1;   // factor on radii behind focus, >= 0
     double max_radius_px = std::numeric_limits<double>::infinity();  // a clamp, not a scale; > 0
-    // Depths inside [focus_near_m, focus_far_m] are held sharp; outside, blur is that of physics measured
-    // from the end of the range. 0, 0: no range.
+    // Depths inside [focus_near_m, focus_far_m] stay sharp; outside, the physical blur begins at the end of
+    // the range. 0, 0: no range.
     double focus_near_m = 0, focus_far_m = 0;
-    // The blur eases in beyond each end of the range over this share of the end's distance; 0: at once.
+    // The blur grows gradually beyond each end of the range, over this share of the end's distance; 0: at
+    // once.
     double focus_falloff = 0;
 
     bool operator==(const CocControls&) const = default;
@@ -73,7 +74,7 @@ private:
     CocControls controls_;
 };
 
-// Depth of field as a photographer reads it off the lens. Without the artist's controls.
+// Depth of field as on a lens's scale, without CocControls.
 struct FocusLimits {
     double near_m = 0, far_m = 0;  // radii between are below the permissible one; far may be infinite
     double hyperfocal_m = 0;       // focused there, the far limit is infinite

@@ -12,7 +12,7 @@ namespace petzval {
 
 struct CompareSettings {
     double exposure = 1;          // linear factor before clipping
-    View<const float> mask = {};  // where > 0.5 counts; empty: everywhere
+    View<const float> mask = {};  // pixels above 0.5 count; empty: all pixels
     int threads = 0;              // 0: all this process may use; the result never depends on it
     Workers* workers = nullptr;   // those of a host, in place of `threads`; null: our own
 };
@@ -42,7 +42,7 @@ struct WorstPlace {
 
 struct Difference {
     Plane error;  // largest |difference| of R, G, B as sRGB codes 0…1; 0 where the mask does not count
-    std::vector<WorstPlace> worst;  // the worst first; squares that differ, none touching another
+    std::vector<WorstPlace> worst;  // squares that differ, the worst first; no two touch
 };
 
 // The pixels and places that differ. The squares are 1/24 of the longer side, at least 8 pixels. Errors:

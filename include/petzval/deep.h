@@ -14,8 +14,8 @@
 
 namespace petzval {
 
-// One surface seen in one pixel. Colour is premultiplied by the sample's OWN coverage `colour.a` (the area
-// that it hides), not by the part of the pixel that samples in front leave.
+// One surface in one pixel. Colour is premultiplied by the sample's OWN coverage `colour.a` (the area that
+// it hides), not by its visible part.
 struct DeepSample {
     Rgba colour;
     // Planar metres, +infinity for a miss; or signed radii in pixels, beside a picture whose depth is radii.
@@ -32,7 +32,7 @@ public:
     DeepPicture(int width, int height, std::vector<std::size_t> first, std::vector<DeepSample> samples)
         : width_(width), height_(height), first_(std::move(first)), samples_(std::move(samples)) {}
 
-    // Pixel by pixel: samples_at(x, y, samples) appends what the pixel holds, nearest first.
+    // Built pixel by pixel: samples_at(x, y, samples) appends the samples of the pixel, nearest first.
     template <typename SamplesAt>
     static DeepPicture made_of(int width, int height, const SamplesAt& samples_at) {
         std::vector<std::size_t> first{0};
@@ -77,15 +77,15 @@ struct PlacedDeep {
 // depth are ordered by their values, so that the order of the parts changes no bit. Requires: no NaN.
 PETZVAL_API DeepPicture merge_deep(const std::vector<PlacedDeep>& parts, const Rect& window);
 
-// One sample per pixel of a flat picture with depth of the same size; pixels that hold nothing give none.
+// One sample per pixel of a flat picture with depth of the same size; empty pixels give none.
 PETZVAL_API DeepPicture deep_from_flat(View<const Rgba> colour, View<const float> depth_m);
 
 // Composites every pixel's samples into one colour and one depth. Colours are composited over each other,
 // nearest first. The depth is the one at which the accumulated coverage first reaches half of the pixel's
-// final coverage, so that thin fog in front does not claim a pixel that shows the wall behind it. A pixel
-// whose samples have no coverage (pure glow) has the depth of its nearest sample; a pixel without samples is
-// a miss. Overlapping volumes are split first (image/deep_pixel.h). `workers` are a host's threads; without
-// them, `threads` of our own run (0: all). The result is the same for any number of threads.
+// final coverage, so a wall behind thin fog keeps its depth. A pixel whose samples have no coverage (pure
+// glow) has the depth of its nearest sample; a pixel without samples is a miss. Overlapping volumes are
+// split first (image/deep_pixel.h). `workers` are a host's threads; without them, `threads` of our own run
+// (0: all). The result is the same for any number of threads.
 PETZVAL_API void flatten(const DeepPicture& deep, Picture& colour, Plane& depth, int threads = 0,
                          Workers* workers = nullptr);
 

@@ -1,4 +1,4 @@
-// The main door: a sharp picture with depth in, the picture a lens would have taken out.
+// The main function: makes the picture that a lens would have taken from a sharp picture with depth.
 #pragma once
 
 #include "petzval/camera.h"
@@ -24,21 +24,21 @@
 
 namespace petzval {
 
-// All fields of Rendered, Look and Control in one struct: a thin shim over them (petzval/frame_stages.h).
+// All fields of Rendered, Look and Control in one struct (petzval/frame_stages.h).
 struct DefocusJob {
     View<const Rgba> colour;  // scene-linear, premultiplied
-    // The picture that `colour` shows, where its owner needs it no more: the result may be put in its memory.
-    // Whatever comes of the job, what it holds then is not said.
+    // The picture that `colour` views, if the caller no longer needs it: its memory may be reused for the
+    // result. After the call its contents are unspecified.
     Picture* spent_colour = nullptr;
     View<const float> depth_m;  // planar metres, same size; +infinity for a miss
-    // The signed radius of every pixel instead of its depth, which stays empty: the camera is not asked, and
-    // depths of `deep`, `behind` and `holdout` are radii too.
+    // The signed radius of every pixel; depth_m is then empty, the camera's focus is not used, and depths
+    // of `deep`, `behind` and `holdout` are radii too.
     View<const float> coc_px;
     // Treatment of soft silhouettes in depth_m, or in radii; deep pictures ignore it. The
     // report's warnings state what was found.
     DepthEdges depth_edges = DepthEdges::Auto;
     const DeepPicture* deep =
-        nullptr;  // all samples of a deep input, same size; replaces colour and depth_m where given
+        nullptr;  // all samples of a deep input, same size; if given, it replaces colour and depth_m
     const DeepPicture* behind = nullptr;  // hidden layers, same size, see docs/conventions.md; may be null
     // A holdout matte of deep samples, same size, not blurred: light that lands in a pixel is dimmed by the
     // matte's samples there in front of the light's depth. For engines scatter and reference.
@@ -53,7 +53,7 @@ struct DefocusJob {
     Camera camera;
     CocControls coc;
     LensChoice lens;
-    std::optional<Lens> opened_lens;  // where given, it is taken instead of `lens`, and nothing is read
+    std::optional<Lens> opened_lens;  // if given, it replaces `lens`, and no file is read
 
     std::string engine = "scatter";  // one of engine_names()
     Quality quality = Quality::Standard;
@@ -62,17 +62,17 @@ struct DefocusJob {
     ScatterOptions scatter;
     GatherOptions gather;      // gather, and sprites over it
     GaussianOptions gaussian;  // gaussian, and sprites over it
-    SpriteOptions sprites;     // sprites; what it finds, gather finds as well
+    SpriteOptions sprites;     // sprites; gather uses its search for lights too
     // For sprites only: lights to draw on top, hidden by nearer surfaces. Lights that cannot be drawn (not
-    // finite, negative, outside the frame) are left out, counted and reported.
+    // finite, negative, outside the frame) are skipped, counted and reported.
     const std::vector<LightPoint>* points = nullptr;
     int threads = 0;                   // 0: all this process may use; the result never depends on it
     Workers* workers = nullptr;        // those of a host, in place of `threads`; null: our own
     std::size_t max_memory_bytes = 0;  // 0: no limit
-    std::size_t held_bytes = 0;        // what its caller holds beside, as frames around it; counts against it
+    std::size_t held_bytes = 0;  // memory of the caller, such as other frames, that counts against the limit
     std::uint64_t seed = 1;
-    // A folder in which kernels that take long to make are kept between runs, so many bytes at most, those
-    // not used longest go first; empty: none. The result never depends on it.
+    // Folder for slow kernels between runs, with at most this many bytes; the least recently used are
+    // removed first. Empty: none. The result never depends on it.
     std::string kernel_cache_folder;
     std::size_t kernel_cache_bytes = std::size_t(1) << 30;
     std::function<bool(double)> progress;  // share done 0…1, one call at a time; false cancels
@@ -80,13 +80,13 @@ struct DefocusJob {
 
 struct DefocusReport {
     Picture image;                // same size as the input, unless options ask for several side by side
-    std::vector<Panel> panels;    // then: what lies where
+    std::vector<Panel> panels;    // if so: their positions
     std::vector<Picture> layers;  // those of the job, with the alpha of `image`
     // For ScatterView::Hidden: the engine's surfaces of every pixel, nearest first, visible and estimated;
     // `image` is the sharp picture then. Depth in metres, or radii if the job gives radii.
     DeepPicture hidden;
     std::string engine, device, lens;
-    std::string glare_device;  // who drew glare, as `device`; empty where there is none
+    std::string glare_device;  // device that drew the glare; empty if there is none
     // Codes as requested by Control::codes, made like develop(); and the device that made them, as `device`.
     // Otherwise empty.
     std::vector<std::uint16_t> codes;
@@ -112,7 +112,7 @@ PETZVAL_API Result<Plane> circle_of_confusion(const Rendered& rendered, const Lo
                                               Workers* workers = nullptr);
 PETZVAL_API Result<Plane> circle_of_confusion(const DefocusJob& job);
 
-// The pictures and camera of a job. Errors: InvalidArgument where it gives depth and radii.
+// The pictures and camera of a job. Errors: InvalidArgument if it gives both depth and radii.
 PETZVAL_API Result<Rendered> rendered_of(const DefocusJob& job);
 
 }  // namespace petzval

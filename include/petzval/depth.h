@@ -23,11 +23,11 @@ enum class DepthKind {
     Normalized,  // 0 = range near, 1 = range far, linear in planar depth
     Device,      // z-buffer value, linear in 1/z: 0 = range near, 1 = range far; far < near is reversed z,
                  // and an infinite end is allowed
-    Mist,        // Blender's mist pass, falloff quadratic: the square of the way from range near (0) to range
-                 // far (1), by distance from the pinhole
-    CocPx,       // already a signed circle-of-confusion radius in pixels, + is far
-    MistLinear,  // as Mist, with Blender's falloff Linear: the way itself
-    MistInverse,  // as Mist, with Blender's falloff Inverse Quadratic: the square root of the way
+    Mist,   // Blender's mist pass, falloff quadratic: the square of the fraction of the way from range near
+            // (0) to range far (1), by distance from the pinhole
+    CocPx,  // already a signed circle-of-confusion radius in pixels, + is far
+    MistLinear,   // as Mist, with Blender's falloff Linear: the fraction itself
+    MistInverse,  // as Mist, with Blender's falloff Inverse Quadratic: the square root of the fraction
 };
 
 // True for Blender's mist pass of any falloff.
@@ -35,11 +35,11 @@ constexpr bool is_mist(DepthKind kind) {
     return kind == DepthKind::Mist || kind == DepthKind::MistLinear || kind == DepthKind::MistInverse;
 }
 
-// Silhouettes that are ramps instead of steps, as depth of networks, averaged and enlarged passes has them: a
-// pixel in a ramp has the depth of nothing that is there.
+// Treatment of silhouettes that are ramps instead of steps, as in depth of neural networks or in filtered
+// and enlarged passes. No surface lies at the depth of a pixel in a ramp.
 enum class DepthEdges {
     Auto,  // snap where most silhouettes are soft; depth of renderers stays as it is, bit for bit
-    Keep,  // take every value for what it says
+    Keep,  // use every value unchanged
     Snap,  // give each pixel of a ramp to the nearer or the farther side, by its colour and place
 };
 
@@ -50,7 +50,7 @@ struct DepthSettings {
     std::optional<double> range_near, range_far;
     std::optional<double> focal_length_mm, sensor_width_mm;  // Ray and Mist need both: the angle of a pixel
     int threads = 0;             // 0: all this process may use; the result never depends on it
-    Workers* workers = nullptr;  // those of a host, in place of `threads`; null: our own
+    Workers* workers = nullptr;  // a host's, instead of `threads`; null: our own
 };
 
 struct DepthReport {

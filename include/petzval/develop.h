@@ -35,8 +35,8 @@ enum class ToneCurve {
 
 struct DevelopSettings {
     double exposure_stops = 0;
-    // Exponent about mid-grey 0.18, on the largest channel, hue kept; before the tone curve. 1: as it is.
-    // First see whether the scene's range is right (measure_dynamic_range), then reach for contrast.
+    // Exponent about mid-grey 0.18, on the largest channel, hue kept; before the tone curve. 1: unchanged.
+    // Check the scene's range first (measure_dynamic_range), then change contrast.
     double contrast = 1;
     ToneCurve tone = ToneCurve::Filmic;
     Transfer transfer = Transfer::Srgb;

@@ -1,4 +1,4 @@
-// Display pictures as PNG files, and which of the formats that are written a name asks for. Component
+// Display pictures as PNG files, and the output format of a file name. Component
 // petzval::files.
 #pragma once
 
@@ -16,7 +16,7 @@
 namespace petzval {
 
 enum class FileKind { Exr, Png };
-// The kind of file that the name's extension asks for. Errors: InvalidArgument, which lists the accepted
+// The format of the name's extension. Errors: InvalidArgument, which lists the accepted
 // extensions.
 PETZVAL_API Result<FileKind> kind_of_output(const std::string& path);
 
@@ -37,11 +37,11 @@ using PngTexts = std::vector<std::pair<std::string, std::string>>;
 PETZVAL_API Status write_codes(const std::string& path, int width, int height,
                                std::vector<std::uint16_t> codes, int bits, bool overwrite,
                                double pixel_aspect = 1, PngTexts texts = {});
-// Developed, the same.
+// The same from scene-linear light, by develop().
 PETZVAL_API Status write_developed(const std::string& path, View<const Rgba> picture,
                                    const DevelopSettings& settings, bool overwrite, double pixel_aspect = 1,
                                    PngTexts texts = {});
-// A plane as 16-bit grey: 0…1 becomes 0…65535, anything else the nearer end, NaN 0.
+// A plane as 16-bit grey: 0…1 becomes 0…65535; other values are clamped, NaN is 0.
 PETZVAL_API Status write_grey_png(const std::string& path, View<const float> plane, bool overwrite,
                                   PngTexts texts = {});
 

@@ -11,7 +11,7 @@
 
 namespace petzval {
 
-// Luminance statistics (Rec.709) over pixels that hold light; levels by rank.
+// Luminance statistics (Rec.709) of all pixels that are not black; levels are percentiles.
 struct DynamicRange {
     double shadow = 0, middle = 0, diffuse = 0, specular = 0;  // 5, 50, 90 and 99.9 % of pixels are darker
     double brightest = 0;                                      // largest channel
@@ -32,8 +32,8 @@ struct DynamicRange {
 // display_referred: the picture was decoded from display codes, so that it cannot be encoded light.
 PETZVAL_API DynamicRange measure_dynamic_range(View<const Rgba> picture, bool display_referred);
 
-// The assumption under which a plate's highlights are given back: light up to the knee was recorded as it is,
-// above it a shoulder was used that led `peak` to 1. With s = (v - knee)/(1 - knee) on the largest channel,
+// The assumption for expanding a plate's highlights: light up to the knee was recorded unchanged, and above
+// it a shoulder mapped `peak` to 1. With s = (v - knee)/(1 - knee) on the largest channel,
 //     light = knee + (1 - knee) s / (1 - b s),   b = 1 - (1 - knee)/(peak - knee),
 // which leaves the knee with slope 1, without a joint. Hue is kept. What is above 1 is `peak` times itself.
 struct HighlightExpansion {

@@ -12,7 +12,7 @@ namespace petzval {
 struct StageTime {
     std::string stage;
     double seconds = 0;
-    // Bytes touched and multiply-adds, as the stage counted them (docs/reference/report.md); 0: it did not.
+    // Bytes and multiply-adds as counted by the stage (docs/reference/report.md); 0: not counted.
     std::uint64_t bytes = 0, multiply_adds = 0;
 };
 
@@ -20,8 +20,8 @@ struct StageTime {
 struct Panel {
     std::string name;
     Rect area;
-    Rgba colour;                            // that stands for it in a map among the panels; all 0: none
-    std::optional<std::string> layer = {};  // of a file, that can hold it: it is of the input's size
+    Rgba colour;                            // its colour in a map among the panels; all 0: none
+    std::optional<std::string> layer = {};  // layer of a file that can store it, if it has the input's size
     bool is_numbers = false;                // red holds a number for every pixel, NaN for none; not light
 };
 

@@ -28,13 +28,13 @@ struct ReadOptions {
     std::string view_name;               // stereo view, e.g. "left"
     std::string depth_file;              // another file that holds the depth
     std::string depth_channel;           // e.g. "Z", "depth.R", "ViewLayer.Depth.Z"
-    Transfer transfer = Transfer::Srgb;  // how PNG colour is decoded; EXR is linear by definition
-    // Layers that are blurred beside the colour: "all", and names of layers, parts or single channels;
-    // "-NAME" after "all" leaves one out, "NAME:LAMP" sets the spectrum of its light, as "signs:neon". Empty:
+    Transfer transfer = Transfer::Srgb;  // decodes PNG colour; EXR is linear by definition
+    // Layers that are blurred with the colour: "all", and names of layers, parts or single channels;
+    // "-NAME" after "all" omits one, "NAME:LAMP" sets the spectrum of its light, as "signs:neon". Empty:
     // none. EXR only.
     std::vector<std::string> layers;
-    bool need_colour = true;    // false: alpha and depth are enough, as of a matte; colour is 0 then
-    bool need_depth = true;     // false: a file without depth is fine, depth stays empty
+    bool need_colour = true;    // false: alpha and depth are enough, as for a matte; colour is then 0
+    bool need_depth = true;     // false: a file without depth is accepted, depth stays empty
     MotionReading motion = {};  // EXR only; not of deep parts
     std::size_t max_pixels = std::size_t(1) << 28;  // larger data windows are refused before memory is taken
     // Memory limit for the pixels of a frame: a larger frame is refused before memory is taken, deep samples
@@ -57,8 +57,8 @@ struct FoundCamera {
     // Set if a file gives it; with one of focal length and sensor width known, the other follows (and is
     // filled in if the file holds both).
     std::optional<FoundNumber> horizontal_fov_deg;
-    // The file's worldToCamera, rows one after the other: a point of the world as row vector (x, y, z, 1)
-    // times it is that point as the camera sees it, in scene units; OpenEXR's camera looks along +z.
+    // The file's worldToCamera, rows one after the other: a world point as row vector (x, y, z, 1) times
+    // this matrix is the point in camera space, in scene units; OpenEXR's camera looks along +z.
     std::optional<std::array<double, 16>> camera_from_world = std::nullopt;
 };
 
@@ -79,13 +79,13 @@ struct FrameLayer {
     std::optional<LightSpectrum> spectrum = {};
 };
 
-// A layer or channel that stays as it is, and why: this, where it would be blurred if asked for.
+// A layer or channel that is copied, and the reason: this one if it could be blurred on request.
 inline constexpr const char* kNotAskedFor = "not asked for";
 struct CarriedLayer {
     std::string name, why;
 };
 
-// Everything a file held that petzval does not process, kept to be written back (attributes, other channels,
+// Everything in a file that petzval does not process but writes back (attributes, other channels,
 // parts).
 class CarriedContent;
 
@@ -94,44 +94,44 @@ struct Frame {
     Place place;
     Picture colour;          // size of the data window; scene-linear Rec.709, premultiplied
     bool has_alpha = false;  // false: colour.a is 1 everywhere
-    // Size of the data window, values as stored (see depth_to_planar_metres), +infinity where a depth of
-    // another window covers nothing; may be empty.
+    // Size of the data window, values as stored (see depth_to_planar_metres), +infinity where a depth part
+    // with another window has no pixels; may be empty.
     Plane depth;
     MotionVectors motion;         // of the data window, as ReadOptions::motion asks
     bool depth_is_share = false;  // read from whole numbers: shares of full scale, 0…1
     // All samples of a deep input with depths as stored (see deep_to_planar_metres), else empty. colour and
-    // depth are then what it looks like from the front: samples one over the other, and the depth at which
-    // coverage first reaches half of the pixel's: thin fog does not claim the pixel of the wall behind it.
+    // depth are then its front view: composited samples, and the depth at which coverage first reaches half
+    // of the pixel's, so a wall behind thin fog keeps its depth.
     DeepPicture deep;
     std::vector<FrameLayer> layers;            // as ReadOptions::layers asks
     std::vector<CarriedLayer> layers_carried;  // all others
     FoundCamera camera;
     std::vector<std::string> views;  // of a stereo file, in its order; empty for others
     std::string view;                // that of the colour
-    // History of the colour's part, a line per step, oldest first (attribute petzval:history), and the first
-    // channel of the colour, which names it there.
+    // History of the colour's part, a line per step, oldest first (attribute petzval:history), and the
+    // first channel of the colour, its name in the history.
     std::string history, colour_name;
     bool display_referred = false;  // read from PNG: 1.0 is clipped highlights
     std::size_t non_finite_colour =
         0;  // NaN or infinite colour values that were replaced by 0 or the largest half
     std::vector<PartSummary> parts;
-    std::vector<std::string> detected;  // one line each: what was taken, from where, and why
+    std::vector<std::string> detected;  // one line for each automatic choice, with its source and reason
     std::vector<std::string> warnings;
     std::shared_ptr<const CarriedContent> carried;
 };
 
-// Reads .exr (flat, tiled, multi-part, multi-view, deep), .png and, where their libraries were found, .jpg
-// and .tif, decided by content, not by name. "-" is standard input, once and into memory: 4 GiB at most, or
-// max_memory_bytes.
-// Errors: InvalidFile (missing, damaged, truncated, empty, no colour, no depth when needed, larger than
-// max_pixels), InvalidArgument (a layer, view or channel that the file does not have: the message lists those
-// it has).
+// Reads .exr (flat, tiled, multi-part, multi-view, deep), .png and, where their libraries
+// were found, .jpg and .tif, decided by content, not by name. "-" is standard input, once
+// and into memory: 4 GiB at most, or max_memory_bytes. Errors: InvalidFile (missing,
+// damaged, truncated, empty, no colour, no depth when needed, larger than max_pixels),
+// InvalidArgument (the file does not have that layer, view or channel; the message lists
+// those it has).
 PETZVAL_API Result<Frame> read_frame(const std::string& path, const ReadOptions& options = {});
 
 // Header only: parts, channels, windows, camera; pixels stay unread.
 PETZVAL_API Result<Frame> read_frame_header(const std::string& path, const ReadOptions& options = {});
 
-// A text that an EXR has as an attribute, or a PNG under that keyword; empty where it has none. Errors:
+// The text attribute of an EXR, or the text of a PNG with that keyword; empty if there is none. Errors:
 // InvalidFile.
 PETZVAL_API Result<std::string> read_text_attribute(const std::string& path, const std::string& name);
 
@@ -146,8 +146,8 @@ struct WriteReport {
 
 struct WriteOptions {
     PixelType type = PixelType::Keep;  // Keep: as the carried input had it, else half
-    // none, rle, zips, zip, piz, pxr24, b44, b44a, dwaa, dwab; empty: as the input, else zip. An input whose
-    // compression would lose a little more of a carried channel at each writing is written as zip.
+    // none, rle, zips, zip, piz, pxr24, b44, b44a, dwaa, dwab; empty: as the input, else zip. If the
+    // input's compression would degrade carried channels again, the file is written as zip.
     std::string compression;
     bool overwrite = true;  // false: an existing file is an OutputFailed error
     // Extra attributes, e.g. {"petzval:coc", "signed radius, px, + is far"}.
@@ -162,18 +162,18 @@ struct WriteOptions {
 // Replaces colour (and alpha when has_alpha) of the carried part by frame.colour and the channels of its
 // layers by those, keeps every other channel, part and attribute, and writes a flat EXR. If frame.depth is
 // not empty and nothing is carried, it is written as float Z, and its motion as forward.u, forward.v,
-// backward.u and backward.v, y upwards. Written beside `path`, synced, renamed: `path` is either complete or
-// untouched.
+// backward.u and backward.v, y upwards. The file is written beside `path`, synced and renamed, so `path` is
+// either complete or unchanged.
 //
-// Carried channels are copied bit for bit from the input, which must still be what was read; where
-// the frame's data window is larger than the input's they are 0 there (depth: +infinity). Colour goes back to
-// the primaries of the input. Mip levels below the first are dropped. Errors: InvalidArgument (sizes that do
-// not match, an unknown compression), InvalidFile (the input changed), OutputFailed.
+// Carried channels are copied bit for bit from the input, which must not have changed. Where the frame's
+// data window is larger than the input's, they are 0 (depth: +infinity). Colour goes back to the primaries
+// of the input. Mip levels below the first are dropped. Errors: InvalidArgument (sizes that do not match,
+// an unknown compression), InvalidFile (the input changed), OutputFailed.
 PETZVAL_API Status write_exr(const std::string& path, const Frame& frame, const WriteOptions& options = {});
 
-// The same of several views of one file, each read by itself: the colour and layers of all are replaced.
-// Those that share a part need one data window. Errors: those of write_exr(); InvalidArgument for frames of
-// nothing that was read.
+// The same for several views of one file, each read separately: the colour and layers of all are replaced.
+// Views in one part need one data window. Errors: those of write_exr(); InvalidArgument for frames that
+// were not read from a file.
 PETZVAL_API Status write_exr_views(const std::string& path, const std::vector<const Frame*>& frames,
                                    const WriteOptions& options = {});
 
@@ -191,7 +191,7 @@ PETZVAL_API Status write_deep_exr(const std::string& path, const Place& place, c
                                   const WriteOptions& options = {});
 
 // Refuses work of known size before it begins. what: such as "a picture of 640 x 360"; limit_bytes 0: no
-// limit. Errors: OutOfMemory, as reading has it for ReadOptions::max_memory_bytes.
+// limit. Errors: OutOfMemory, as for ReadOptions::max_memory_bytes.
 PETZVAL_API Status fits_memory(const std::string& what, std::size_t needed_bytes, std::size_t limit_bytes);
 
 // 8 or 16 bit PNG of display-referred bytes already encoded (see develop.h). channels: 1, 3 or 4,
@@ -204,7 +204,7 @@ struct PngPixels {
     std::vector<std::pair<std::string, std::string>> texts = {};
 };
 PETZVAL_API Status write_png(const std::string& path, const PngPixels& pixels, bool overwrite = true);
-// The same file as bytes, for pages and mails that carry their pictures inside.
+// The same file as bytes, for pages and mails with embedded pictures.
 PETZVAL_API Result<std::string> png_bytes(const PngPixels& pixels);
 // Samples as stored, never transfer-decoded: masks, depth PNGs, aperture images.
 PETZVAL_API Result<PngPixels> read_png(const std::string& path, std::size_t max_pixels = std::size_t(1)

@@ -1,5 +1,5 @@
-// A frame while it is made: its stages one by one, as a host with a node or a farm task for each wants them,
-// or all at once, as Session::take() does.
+// A frame in progress. Its stages are made one by one, for a host with a node or farm task per stage, or
+// all at once, as in Session::take().
 #pragma once
 
 #include "petzval/defocus.h"
@@ -15,20 +15,21 @@
 
 namespace petzval {
 
-// In pixels of the display window, as the data window is: asked lies within made, made within seen.
+// In pixels of the display window, like the data window: asked lies within made, made within seen.
 struct Windows {
-    Rect asked;  // what the result shows
-    Rect made;   // what is blurred: all of the frame where glare spreads over it
-    Rect seen;   // what an engine looks at for that; known once the frame is blurred
+    Rect asked;  // the part that the result shows
+    Rect made;   // the part that is blurred: the whole frame if glare spreads over it
+    Rect seen;   // the part that the engine reads; known once the frame is blurred
 };
 
-// In the order of physics: blur, falloff, glare, codes. A stage may be left out and none comes twice or after
-// a later one: that is an error. A stage that the look does not ask for changes nothing. Between stages the
-// picture stays where it was drawn. Neither the session nor the pictures of `rendered` may end before it.
+// Stages are called in the order of physics: blur, falloff, glare, codes. A stage may be omitted; calling
+// one twice or after a later one is an error. A stage that the look does not use changes nothing. Between
+// stages the picture stays on its device. The session and the pictures of `rendered` must outlive the
+// frame.
 class PETZVAL_API FrameStages {
 public:
-    // spare: the memory of the picture that rendered.colour shows, moved in by an owner who no longer needs
-    // it: the result may be put there. Errors: those of check(look); InvalidArgument for sizes, windows and
+    // spare: the picture that rendered.colour views, moved in if its owner no longer needs it: its memory
+    // may be reused for the result. Errors: those of check(look); InvalidArgument for sizes, windows and
     // numbers that do not fit; those of Lens::open() and of the session's device.
     static Result<FrameStages> begin(Session& session, Rendered rendered, const Look& look,
                                      const Control& control = {}, Picture spare = {});
@@ -38,9 +39,9 @@ public:
 
     const Windows& windows() const;
 
-    // A plate's highlights are given back before it. Errors: those of petzval::defocus().
+    // Expands a plate's highlights, then blurs. Errors: those of petzval::defocus().
     Status blur();
-    // Instead of blur(): a picture that is blurred already, of the size of windows().made.
+    // Instead of blur(): takes a picture that is already blurred, of the size of windows().made.
     Status take_blurred(Picture picture);
     // Light lost towards the corners. Errors: those of add_falloff().
     Status falloff();
@@ -49,8 +50,8 @@ public:
     // Makes Control::codes; on the device that drew the picture, unless its light is changed afterwards.
     Status codes();
 
-    // The picture made so far, brought home and cut to windows().asked: back in the plate's range, limited by
-    // the mask. Nothing can be made of the frame afterwards.
+    // The picture made so far, read back and cut to windows().asked, in the plate's range and limited by
+    // the mask. The frame cannot be used afterwards.
     Result<DefocusReport> report() &&;
     // All stages that are left, and the report.
     Result<DefocusReport> take() &&;

@@ -1,4 +1,4 @@
-// Frame numbers, and names of files that have one in them. Component petzval::files.
+// Frame numbers, and file names that contain them. Component petzval::files.
 #pragma once
 
 #include "petzval/export.h"
@@ -12,26 +12,26 @@
 
 namespace petzval {
 
-// "1001-1100x2,1200": single frames, ranges, every n-th of a range (from its beginning), with commas between.
-// Numbers may be negative ("-10--5") and ranges may fall. Each frame once, in the order named. Errors:
-// InvalidArgument; "1-100:3", which some programs take for every third frame and others for all of them in
-// another order, is refused with both spellings; so are more than a million frames.
+// "1001-1100x2,1200": single frames, ranges, and every n-th frame of a range from its beginning, separated
+// by commas. Numbers may be negative ("-10--5") and ranges may fall. Returns each frame once, in the order
+// named. Errors: InvalidArgument; "1-100:3", which means every third frame in some programs and all frames
+// in another order in others, is refused with both spellings; so are more than a million frames.
 PETZVAL_API Result<std::vector<int>> parse_frames(std::string_view text);
-// The shortest such text that names the same frames in the same order.
+// The shortest text that names the same frames in the same order.
 PETZVAL_API std::string frames_text(std::span<const int> frames);
 
 // A path whose file name holds a frame number: '#' for each digit ("beauty.####.exr"), or as printf writes it
 // ("beauty.%04d.exr"). Numbers with more digits than that are written whole.
 class PETZVAL_API FramePattern {
 public:
-    // Empty where the path has none. Errors: InvalidArgument for two of them, for one in a folder's name, and
-    // for more than 12 digits.
+    // Empty if the path has no frame number. Errors: InvalidArgument for two frame numbers, for one in a
+    // folder's name, and for more than 12 digits.
     static Result<std::optional<FramePattern>> find(std::string_view path);
 
     std::string path(int frame) const;
     // The number in the name of a file in the same folder, if it matches this pattern.
     std::optional<int> frame_of(std::string_view file_name) const;
-    // Numbers of the files that are there, ascending. Errors: InvalidFile for a folder that cannot be read.
+    // Numbers of the existing files, ascending. Errors: InvalidFile for a folder that cannot be read.
     Result<std::vector<int>> frames_there() const;
 
 private:
@@ -41,7 +41,7 @@ private:
 
 // True if the path has one place for a frame number.
 PETZVAL_API bool has_frame_number(const std::string& path);
-// The path of a frame; one without a place for a number, or with two of them, as it is.
+// The path of a frame; a path without a frame number, or with two, is returned unchanged.
 PETZVAL_API std::string at_frame(const std::string& path, int frame);
 
 }  // namespace petzval

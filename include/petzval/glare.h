@@ -20,7 +20,7 @@ namespace petzval {
 
 enum class StarQuality {
     Draft,  // streaks in a few passes (M. Kawase, GDC 2003)
-    Final,  // the diffraction of the aperture's true outline, wavelength by wavelength
+    Final,  // diffraction at the aperture's true outline, by wavelength
 };
 
 enum class LensCoating {
@@ -28,19 +28,19 @@ enum class LensCoating {
     SingleLayer,  // a quarter wave of magnesium fluoride at 550 nm, about 1.5 %, purple
 };
 
-// All amounts 0: the picture comes back bit for bit. Their sum may not exceed 1.
+// If all amounts are 0, the picture is unchanged bit for bit. Their sum may not exceed 1.
 struct GlareAmounts {
     // Gaussian layers, each twice as wide as the one before and all of equal light, so that the glow falls
-    // about as 1/r^2; of the whole picture, or of the light above bloom_threshold alone.
+    // about as 1/r^2; of the whole picture, or only of the light above bloom_threshold.
     double bloom = 0;
     double bloom_radius = 0.08;  // standard deviation of the widest layer, share of the picture's height
-    // Like `threshold` below, for bloom. 0: all light, as lenses scatter it. >= 0.
+    // Bloom spreads light above this, like `threshold` below; >= 0. 0: all light, as in a real lens.
     double bloom_threshold = 0;
 
     // Spikes across the aperture's edges, of the light above `threshold`: n for an even number of blades n,
     // 2n for an odd one. Needs lens.aperture.blades.
     double star = 0;
-    double star_radius = 0.5;  // where a star's red light ends, share of the picture's height
+    double star_radius = 0.5;  // end of a star's red light, as a fraction of the picture's height
     StarQuality star_quality = StarQuality::Final;
 
     // Reflections between surfaces, of the light above `threshold`. lens.name is a prescription: paraxial
@@ -52,7 +52,7 @@ struct GlareAmounts {
     double veil = 0;  // spread evenly over the picture
 
     // A pixel's light above this counts as a highlight, for stars and ghosts: share 1 - threshold / largest
-    // channel. 1 is diffuse white: a matt surface in the scene's own light throws no stars. >= 0.
+    // channel. 1 is diffuse white, so matt surfaces in the scene's own light have no stars; >= 0.
     double threshold = 1;
 
     bool operator==(const GlareAmounts&) const = default;
@@ -60,8 +60,9 @@ struct GlareAmounts {
 
 // Glare amounts with the properties of the shot that they depend on.
 struct GlareSettings : GlareAmounts {
-    // 550 nm times the f-number, in pixels: the grain of the diffraction pattern. 0 or less than the finest
-    // that is computed (about star_radius / 500 of the height): that finest, whose grain does not show.
+    // 550 nm times the f-number, in pixels: the grain of the diffraction pattern. If 0 or below the finest
+    // grain that is computed (about star_radius / 500 of the height), that one is used, and it is
+    // invisible.
     double diffraction_px = 0;
     Camera camera;                    // for the ghosts of a prescription: all four numbers
     LensChoice lens;                  // the aperture, and the prescription for ghosts
@@ -73,14 +74,14 @@ struct GlareSettings : GlareAmounts {
     Workers* workers = nullptr;  // those of a host, in place of `threads`; null: our own
 };
 
-// Alpha is kept: glare is light over the picture, not something that covers. Negative and non-finite colour
-// counts as 0 where glare is made, non-finite colour becomes 0 in the result.
-// Errors: InvalidArgument naming the number that is out of range, a star without blades, an unknown lens;
-// ghosts of a prescription without camera numbers.
+// Alpha is kept, because glare adds light and covers nothing. Negative and non-finite colour makes
+// no glare; non-finite colour is 0 in the result. Errors: InvalidArgument naming the number that is
+// out of range, a star without blades, an unknown lens; ghosts of a prescription without camera
+// numbers.
 PETZVAL_API Result<Picture> add_glare(View<const Rgba> picture, const GlareSettings& settings);
 
-// Falloff: the share of the middle's light that reaches each place: cos^4 of the field angle, times the open
-// share of the pupil there (the barrel's cat's eye; for a prescription, rays past its rims).
+// Falloff: the light at each place relative to the middle. It is cos^4 of the field angle times the open
+// share of the pupil there (by the barrel's cat's eye, or by rays past the rims of a prescription).
 struct FalloffSettings {
     Camera camera = {};  // focal length and sensor width; for a prescription also f-number and focus
     LensChoice lens = {};
@@ -90,8 +91,8 @@ struct FalloffSettings {
     Workers* workers = nullptr;
 };
 
-// The one function here that loses light. Colour only; alpha is kept.
-// Errors: InvalidArgument for missing camera numbers, an unknown lens.
+// The only function of this header that loses light. It changes colour; alpha is kept. Errors:
+// InvalidArgument for missing camera numbers, an unknown lens.
 PETZVAL_API Result<Picture> add_falloff(View<const Rgba> picture, const FalloffSettings& settings);
 
 }  // namespace petzval

@@ -56,9 +56,9 @@ template <typename T>
 class View {
 public:
     View() = default;
-    // row_stride: from a row to the one below it, in elements, not bytes; negative where the bottom row comes
-    // first in memory, `pixels` being the top row all the same. Requires: its size >= width; pixels outlive
-    // the view.
+    // row_stride: from a row to the one below it, in elements, not bytes; negative if the bottom row comes
+    // first in memory; `pixels` is the top row in any case. Requires: its size >= width; pixels outlive the
+    // view.
     View(T* pixels, int width, int height, std::ptrdiff_t row_stride)
         : pixels_(pixels), width_(width), height_(height), row_stride_(row_stride) {}
     // A view of T is also a view of const T.

@@ -13,12 +13,12 @@ namespace petzval {
 
 struct LensSummary {
     std::string name;                   // as --lens takes it
-    std::string title;                  // what it is, in one line
+    std::string title;                  // one line
     std::string kind;                   // "triplet", "double gauss", …; may be empty
     std::string year, source, history;  // may be empty
-    std::vector<std::string> names;     // others that people use, which --lens knows too
+    std::vector<std::string> names;     // other names that --lens accepts
     LensModelKind model = LensModelKind::Prescription;
-    double focal_length_mm = 0, f_number = 0;  // as built; it may be scaled to any focal length. 0: any
+    double focal_length_mm = 0, f_number = 0;  // as built (0: any); a lens may be scaled to any focal length
 };
 
 // Lenses that match every word, in their name, other names, title, kind, year or history, in any case.
@@ -26,14 +26,14 @@ PETZVAL_API std::vector<LensSummary> matching(const std::vector<LensSummary>& le
                                               const std::vector<std::string>& words);
 
 enum class LensOrder { Shelf, Name, Year, FocalLength, FNumber };
-// The lenses in that order; Shelf: as they are. Those without the number or the year come last.
+// The lenses in that order; Shelf: unchanged. Lenses without the number or year come last.
 PETZVAL_API std::vector<LensSummary> in_order(std::vector<LensSummary> lenses, LensOrder order);
 
 // Every lens that --lens knows by name: the ideal one, the curves, the prescriptions.
 PETZVAL_API std::vector<LensSummary> lens_list();
 
-// The smallest f-number that the lens was built or drawn for; none for the ideal lens, which has no limit.
-// Errors: those of lens_facts().
+// The smallest f-number of the lens; none for the ideal lens, which has no limit. Errors: those of
+// lens_facts().
 PETZVAL_API Result<std::optional<double>> widest_f_number(const Lens& lens);
 
 // Third-order sums in mm, Welford's form; undercorrected spherical aberration has s1 > 0. c1, c2: axial and
@@ -50,7 +50,7 @@ struct LongitudinalAberrationFacts {
     std::vector<std::vector<double>> shift_mm;  // [wavelength][zone]; NaN where no ray passes
 };
 
-// Real rays, aimed at the stop, of one field angle; object at infinity, sensor in the paraxial focus.
+// Real rays of one field angle, aimed at the stop; object at infinity, sensor in the paraxial focus.
 struct FieldFacts {
     double field_deg = 0;
     double image_height_mm = 0;
@@ -68,10 +68,10 @@ struct LensFacts {
     std::string format;  // of the file it was read from
     std::vector<std::string> notes, warnings;
     bool has_prescription = false;
-    // Printed beside the surfaces; 0: nothing is.
+    // Numbers printed beside the surfaces; 0: none.
     double printed_efl_mm = 0, printed_f_number = 0;
-    // Why the surfaces cannot be those that were printed: overlaps, edges too thin, another focal length or
-    // f-number. One sentence each; the last ones of the warnings.
+    // Reasons why the surfaces cannot be those that were printed: overlaps, thin edges, another focal
+    // length or f-number. One sentence each; also the last of the warnings.
     std::vector<std::string> doubts;
 
     double efl_mm = 0, bfl_mm = 0, f_number = 0;
@@ -92,7 +92,7 @@ struct LensFacts {
     std::vector<SeidelFacts> seidel_per_surface;
     bool seidel_complete = true;  // false: odd aspheric powers below 4, which these sums cannot describe
     LongitudinalAberrationFacts longitudinal_aberration;
-    std::vector<FieldFacts> field;  // from the axis to field_deg; ends where no ray passes the stop's centre
+    std::vector<FieldFacts> field;  // from the axis to field_deg, or until no ray passes the stop's centre
 };
 
 // Errors: InvalidFile for a file that describes no lens that forms an image.

@@ -16,7 +16,7 @@
 
 namespace petzval {
 
-// A lens speaks in pixels only on a camera and for pictures of one size.
+// The camera and the picture size that express a lens in pixels.
 struct LensMount {
     Camera camera;  // a focus distance of 0 means infinity here
     int width_px = 1920, height_px = 1080;
@@ -24,20 +24,20 @@ struct LensMount {
 };
 
 // The camera that a lens was built for, focused at infinity: its focal length, its largest aperture and the
-// width of its format. 50 mm f/2 on 36 mm for lenses of any size. Errors: those of lens_facts().
+// width of its format. For lenses of any size: 50 mm, f/2, sensor 36 mm. Errors: those of lens_facts().
 PETZVAL_API Result<Camera> own_camera(const Lens& lens);
 
 struct LensDisc {
-    Picture weights;   // scene-linear; r, g, b and a each sum to 1; the source stands in the middle pixel
-    std::string lens;  // what was used, in words
-    double lost_share = 0;  // of the light (green), outside of a picture smaller than the disc
-    int needed_px = 1;      // sides of the smallest picture that holds all of the disc
+    Picture weights;        // scene-linear; r, g, b and a each sum to 1; the source is in the middle pixel
+    std::string lens;       // description of the lens that was used
+    double lost_share = 0;  // share of the light (green) outside of a picture smaller than the disc
+    int needed_px = 1;      // side of the smallest picture that contains the whole disc
 };
 
 // The kernel of a source of signed CoC radius `coc_radius_px` at a place of the picture: field_x, field_y in
 // -1…1 of its half diagonal, x right, y up. size_px: sides of the picture, made odd; 0: as large as the disc.
-// raw: before colours that no screen has are mapped into gamut. Errors: those of the lens; InvalidArgument
-// for numbers that are not finite, or a disc or picture larger than kLargestDiscPx.
+// raw: colours outside the gamut are not mapped into it. Errors: those of the lens; InvalidArgument for
+// numbers that are not finite, or a disc or picture larger than kLargestDiscPx.
 PETZVAL_API Result<LensDisc> lens_point_spread(const Lens& lens, const LensMount& mount, double coc_radius_px,
                                                double field_x = 0, double field_y = 0, int size_px = 0,
                                                bool raw = false);
@@ -46,8 +46,8 @@ PETZVAL_API Result<LensDisc> lens_point_spread(const LensChoice& lens, const Len
                                                double coc_radius_px, double field_x = 0, double field_y = 0,
                                                int size_px = 0, bool raw = false);
 inline constexpr int kLargestDiscPx = 8192;
-// Sides of a picture that holds any disc of at most that radius, wherever in the frame; no kernel is made for
-// it. Errors: those of lens_point_spread().
+// Side of a picture that contains any disc of at most that radius, anywhere in the frame; no kernel is
+// made. Errors: those of lens_point_spread().
 PETZVAL_API Result<int> largest_disc_px(const Lens& lens, const LensMount& mount, double coc_radius_px);
 // Several discs of one place, the lens mounted once. Errors: as above.
 PETZVAL_API Result<std::vector<LensDisc>> lens_point_spreads(const Lens& lens, const LensMount& mount,
@@ -56,30 +56,30 @@ PETZVAL_API Result<std::vector<LensDisc>> lens_point_spreads(const Lens& lens, c
 
 struct BokehTextureSettings {
     int columns = 512;
-    double largest_coc_px = 64;    // the first column is that far in front of focus, the last behind
+    double largest_coc_px = 64;    // the first column has this radius in front of focus, the last behind
     bool dense_near_focus = true;  // radii grow with the square of the distance from the middle column
     int rows_per_px = 4;           // 1…16
     bool raw = false;
     int threads = 0;                            // 0: all this process may use; the result never depends on it
     Workers* workers = nullptr;                 // those of a host, in place of `threads`; null: our own
     std::function<bool(double)> progress = {};  // share done 0…1, one call at a time; false cancels
-    std::function<bool()> cancelled = {};       // true cancels; asked often, by any thread at any time
+    std::function<bool()> cancelled = {};       // true cancels; called often, by any thread at any time
 };
 
-// The talk's bokeh texture (M. Kawase, CEDEC 2008): each column is the radial profile of a disc, from its
-// middle outwards, on the axis and with a round aperture. Row v is v / rows_per_px pixels from the middle.
-// Where the talk squares the profile, here each value is the light that really falls on a square pixel there.
+// The bokeh texture of M. Kawase (CEDEC 2008): each column is the radial profile of a disc, from its middle
+// outwards, on the axis and with a round aperture. Row v is v / rows_per_px pixels from the middle. The
+// talk squares the profile; here each value is the light that falls on a square pixel at that distance.
 struct BokehTexture {
-    Picture energy;                     // a disc made of a column sums to 1 over its pixels
+    Picture energy;                     // the disc of a column sums to 1 over its pixels
     Picture view;                       // the same, columns divided by their brightest channel (smoothed)
-    std::vector<double> coc_radius_px;  // of the columns
+    std::vector<double> coc_radius_px;  // one per column
     std::string lens;
 };
 
 // Errors: as above; Cancelled.
 PETZVAL_API Result<BokehTexture> bokeh_texture(const Lens& lens, const LensMount& mount,
                                                const BokehTextureSettings& settings = {});
-// Rows that hold any such texture; no kernel is made for it. Errors: as above.
+// Number of rows that is enough for any such texture; no kernel is made. Errors: as above.
 PETZVAL_API Result<int> most_texture_rows(const Lens& lens, const LensMount& mount,
                                           const BokehTextureSettings& settings = {});
 PETZVAL_API Result<BokehTexture> bokeh_texture(const LensChoice& lens, const LensMount& mount,
@@ -88,19 +88,19 @@ PETZVAL_API Result<BokehTexture> bokeh_texture(const LensChoice& lens, const Len
 struct BokehVolumeSettings {
     int slices = 32;             // 2…1024
     int side_px = 128;           // of a slice, 16…1024
-    double largest_coc_px = 64;  // the first slice is nearly that far in front of focus, the last behind
+    double largest_coc_px = 64;  // the first slice has nearly this radius in front of focus, the last behind
     double field_x = 0, field_y = 0;
 };
 
 // Radius of the circle of confusion in every slice, in sides of the slice.
 inline constexpr double kVolumeRadius = 0.35;
 
-// The bokeh texture with a third dimension: whole discs, for apertures that are not round (blades,
-// dust, cat's eye). Slices are as large as their discs: light outside of a slice is lost. Radii grow with the
-// square of the distance from the middle of the volume. There they begin at the radius whose disc fits its
-// slice: nearer to focus the lens's own blur is wider than the disc.
+// The bokeh texture with a third dimension: whole discs, for apertures that are not round (blades, dust,
+// cat's eye). Slices are as large as their discs: light outside of a slice is lost. Radii grow with the
+// square of the distance from the middle of the volume. The smallest radius is the first whose disc fits
+// its slice, because nearer to focus the lens's own blur is wider than the disc.
 struct BokehVolume {
-    std::vector<Picture> slices;  // r, g, b each sum to 1, less what is lost
+    std::vector<Picture> slices;  // r, g, b each sum to 1, minus lost light
     std::vector<double> coc_radius_px;
     std::string lens;
 };
@@ -121,7 +121,7 @@ inline constexpr int kAtlasTileSide = 31, kAtlasRadii = 14;
 
 struct LensAtlas {
     // Light in 32 bits, nine of each colour and five of the exponent that they share (Vulkan's
-    // E5B9G9R9_UFLOAT_PACK32, WebGL's RGB9_E5), little-endian, row by row. A texel holds light times the
+    // E5B9G9R9_UFLOAT_PACK32, WebGL's RGB9_E5), little-endian, row by row. A texel is light times the
     // number of a tile's texels.
     std::string texels;
     int width = 0, height = 0;  // texels

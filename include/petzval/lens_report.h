@@ -1,5 +1,5 @@
-// The sheet of a lens: everything it does to light, as one HTML page that needs nothing else; the sheets that
-// show many lenses side by side; one picture through many lenses; and files of kernels. Part of
+// The report of a lens as one self-contained HTML page; sheets that compare many lenses;
+// contact sheets of one picture through many lenses; and files of kernels. Part of
 // petzval::files.
 #pragma once
 
@@ -46,10 +46,10 @@ PETZVAL_API std::string lens_comparison(const std::vector<LensCard>& cards);
 // The contact sheet as a separate SVG file.
 PETZVAL_API std::string lens_contact_sheet(const std::vector<LensCard>& cards);
 
-// The file name of a lens's page, NAME.html, of characters that every system takes.
+// The file name of a lens's page, NAME.html, with characters that every system allows.
 PETZVAL_API std::string lens_page_name(const std::string& name_or_file);
-// Those of several lenses, in their order. Errors: those of lens_facts(); InvalidArgument if two lenses would
-// have the same page.
+// The file names for several lenses, in their order. Errors: those of lens_facts(); InvalidArgument if two
+// lenses would have the same page.
 PETZVAL_API Result<std::vector<std::string>> lens_page_names(const std::vector<std::string>& lenses);
 // Writes the page of each lens into a folder that exists, then comparison.html, contact-sheet.svg and
 // index.html. Returns the paths in the order of writing. `progress` is called with the share done before each
@@ -61,15 +61,15 @@ PETZVAL_API Result<std::vector<std::string>> write_lens_pages(
 // A picture through one lens.
 struct LensView {
     Picture light;     // the display window, scene-linear
-    std::string lens;  // as it was asked for
+    std::string lens;  // as requested
     double f_number = 0;
     std::vector<std::string> warnings = {};
 };
 
 // The look with another lens, its own aperture shape and added aberrations kept. f_number: empty for the
-// lens's widest aperture, or the shot's where the lens has no limit; a lens that does not open so far is wide
-// open, with a warning. shot.camera.f_number is changed. Errors: those of Lens::open() and Session::take();
-// InvalidArgument naming missing camera numbers.
+// lens's widest aperture, or the shot's f-number if the lens has no limit. A lens that does not open that
+// far is used wide open, with a warning. shot.camera.f_number is changed. Errors: those of Lens::open() and
+// Session::take(); InvalidArgument naming missing camera numbers.
 PETZVAL_API Result<LensView> through_lens(Session& session, Shot& shot, Look look, const std::string& lens,
                                           std::optional<double> f_number = {}, const Control& control = {});
 
@@ -94,8 +94,8 @@ struct LensViewFile {
     std::optional<PixelPosition> focus_pixel = {};
     std::optional<WorldPoint> focus_point = {};
     Look look = {};
-    // `develop` is that of `display`; a number that source.camera gives for the aperture is the f-number of
-    // all.
+    // `develop` comes from `display`; an aperture in source.camera sets the f-number of all
+    // lenses.
     LensViewSheet sheet = {};
     DisplayChoice display = {};
     std::optional<Transfer> transfer = {};  // as the user gave it
@@ -108,14 +108,14 @@ struct LensViewFile {
 PETZVAL_API Status write_lens_view_sheet(const LensViewFile& file, const Control& control,
                                          const std::function<void(const std::string&)>& warn);
 
-// The lens on a camera. Numbers that are not given are the lens's own, also its format. So a focal length
-// alone mounts the lens, scaled, on the sensor that it was made for: in pixels its aberrations grow along.
-// With the sensor scaled by the same factor the kernel stays what it was. height_px: empty for 9/16 of the
-// width. Errors: those of own_camera().
+// The lens on a camera. Missing numbers are the lens's own, also its format. So a focal length alone
+// scales the lens but not its sensor, and its aberrations in pixels grow too. If the sensor is scaled by
+// the same factor, the kernel stays the same. height_px: empty for 9/16 of the width. Errors: those of
+// own_camera().
 PETZVAL_API Result<LensMount> mounted_on(const Lens& lens, const CameraChoice& choice, int width_px,
                                          std::optional<int> height_px = {});
 
-// Before a kernel, a texture or a volume is drawn and written: refuses what takes more than limit_bytes (0:
+// Refuses, before it is drawn and written, a kernel, texture or volume that takes more than limit_bytes (0:
 // no limit). Errors: OutOfMemory; those of largest_disc_px() and most_texture_rows().
 PETZVAL_API Status lens_disc_fits(const Lens& lens, const LensMount& mount, double coc_radius_px, int size_px,
                                   std::size_t limit_bytes);
@@ -123,15 +123,15 @@ PETZVAL_API Status bokeh_texture_fits(const Lens& lens, const LensMount& mount,
                                       const BokehTextureSettings& settings, std::size_t limit_bytes);
 PETZVAL_API Status bokeh_volume_fits(const BokehVolumeSettings& settings, std::size_t limit_bytes);
 
-// EXR files of floats; their attributes (petzval:lens, petzval:coc, …) hold all that a program needs to draw
-// with them (docs/reference/lens-files.md). Errors: those of write_exr_planes().
+// EXR files of floats; their attributes (petzval:lens, petzval:coc, …) give all numbers that a program
+// needs to use them (docs/reference/lens-files.md). Errors: those of write_exr_planes().
 PETZVAL_API Status write_lens_disc(const std::string& path, const LensDisc& disc, double coc_radius_px,
                                    double field_x, double field_y, bool overwrite);
 // Layers: energy without a name, "view", and the radius of each column as "coc.radius".
 PETZVAL_API Status write_bokeh_texture(const std::string& path, const BokehTexture& texture,
                                        const BokehTextureSettings& settings, const LensMount& mount,
                                        bool overwrite);
-// One picture of all slices, the first on top.
+// All slices in one picture, the first on top.
 PETZVAL_API Picture stacked_slices(const BokehVolume& volume);
 PETZVAL_API Status write_bokeh_volume(const std::string& path, const BokehVolume& volume,
                                       const LensMount& mount, bool overwrite);

@@ -3,14 +3,14 @@
 
 namespace petzval {
 
-// A lamp's lines land where their own wavelengths do: its disc has as many rims as it has lines, and no
+// Each line of a lamp has its own focus, so the disc has one rim per line, and no
 // rainbow.
 enum class LightSpectrum : unsigned char {
     Daylight,  // all wavelengths, as in illuminant D65
-    Sodium,    // the yellow doublet of street lamps: one wavelength, as good as
+    Sodium,    // the yellow doublet of street lamps, nearly one wavelength
     Mercury,   // five lines, violet to yellow
     Neon,      // signs: some twenty lines, yellow to red
-    Led,       // a white diode: a blue one and what its phosphor makes of it
+    Led,       // a white diode: a blue diode and its phosphor
 };
 
 }  // namespace petzval

@@ -1,5 +1,5 @@
-// All that an artist chooses, as one value. What was rendered and where the camera stood is the shot's;
-// threads, memory and caches are the run's.
+// All artistic choices as one value. Pictures and camera belong to the shot; threads, memory and caches to
+// the run.
 #pragma once
 
 #include "petzval/camera.h"
@@ -19,8 +19,8 @@
 
 namespace petzval {
 
-// The defaults: engine scatter, a perfect lens, nothing added. Each option of an engine is used by that
-// engine alone (those of gather and gaussian also by sprites, over which it may draw).
+// The defaults: engine scatter, a perfect lens, nothing added. Only the engine itself uses the options of
+// an engine (sprites also uses those of its background, gather or gaussian).
 struct Look {
     std::string engine = "scatter";  // one of engine_names()
     Quality quality = Quality::Standard;
@@ -37,13 +37,13 @@ struct Look {
     std::string aperture_image, kernel_image_far, kernel_image_near;
 
     GatherOptions gather;
-    GaussianOptions gaussian;  // its view is what is shown of a run, and no part of a look that is written
+    GaussianOptions gaussian;  // its view selects the output and is not written with a look
     SpriteOptions sprites;
 
     GlareAmounts glare;
     bool vignetting = false;  // add_falloff
 
-    // For plates that end at 1: blurred with their highlights given back (petzval/dynamic_range.h).
+    // For plates that end at 1: highlights are expanded for the blur (petzval/dynamic_range.h).
     bool expand_highlights = false;
     HighlightExpansion expansion;
 

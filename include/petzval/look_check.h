@@ -13,14 +13,15 @@ namespace petzval {
 struct LookCheck {
     // Errors: InvalidArgument for choices that contradict each other: no frame can be made of this look.
     Status possible = Done{};
-    // Choices that change no picture beside the others, as blades with an engine whose blur is always round.
-    // One sentence each that begins with its field; in the order of the JSON.
+    // Choices without effect beside the others, such as blades with an engine whose blur is always round.
+    // One sentence each, which begins with its field, in the order of the JSON.
     std::vector<Error> idle = {};
 };
 
-// Checks the fields of a look against each other. A field counts as chosen if it differs from its default or
-// if `said` lists its path (as lens.blades). Only the look itself is examined. Lens::open() reports that a
-// lens traced from its surfaces ignores coma; the code that has the picture reports that radii ignore focus.
+// Checks the fields of a look against each other. A field counts as chosen if it differs from its default
+// or if `said` lists its path (such as lens.blades). Only the look itself is examined. Lens::open() reports
+// that a lens traced from its surfaces ignores coma; the code that has the picture reports that radii
+// ignore focus.
 PETZVAL_API LookCheck check(const Look& look, const std::vector<std::string>& said = {});
 
 }  // namespace petzval

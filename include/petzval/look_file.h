@@ -1,4 +1,4 @@
-// A look kept in a file. Component petzval::files.
+// Writes a look to a file. Component petzval::files.
 #pragma once
 
 #include "petzval/export.h"
@@ -10,7 +10,7 @@
 
 namespace petzval {
 
-// read_look() reads it. Errors: OutputFailed, also where the file exists and is not to be overwritten.
+// read_look() reads it. Errors: OutputFailed, also if the file exists and must not be overwritten.
 PETZVAL_API Status write_look(const Look& look, const std::string& path, bool overwrite = true);
 
 }  // namespace petzval

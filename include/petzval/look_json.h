@@ -1,5 +1,5 @@
-// A look as text, to keep, to send and to compare: JSON, one key a field, in sections. Presets: looks by
-// name.
+// A look as text that can be stored, sent and compared: JSON in sections, one key per field. Presets are
+// looks with names.
 #pragma once
 
 #include "petzval/export.h"
@@ -18,7 +18,7 @@ constexpr int kLookVersion = 1;
 // Indented, ends with a newline. Infinity is the word "inf".
 PETZVAL_API std::string look_to_json(const Look& look);
 
-// A named look that ships.
+// A built-in look with a name.
 struct LookPreset {
     std::string name, purpose;
     Look look;
@@ -31,10 +31,10 @@ PETZVAL_API Result<Look> look_preset(const std::string& name);
 //
 // Missing keys keep their defaults; the key "preset" names a preset whose fields replace those defaults.
 // look_from_json(look_to_json(look)) equals `look` bit for bit, except for pictures and views. Errors:
-// InvalidFile if the text is not JSON, is not a look or comes from a later version; if a key is unknown (the
-// message suggests the known key that resembles it) or given twice; if a value has the wrong type or its flag
-// would refuse it. The message names the key by its path, as lens.blades. check() reports whether values fit
-// each other.
+// InvalidFile if the text is not JSON, is not a look or comes from a later version; if a key is unknown
+// (the message suggests the known key that resembles it) or given twice; if a value has the wrong type or
+// its flag would refuse it. The message names the key by its path, such as lens.blades. check() reports
+// whether values fit each other.
 PETZVAL_API Result<Look> look_from_json(const std::string& text);
 
 // The look with one field changed: its path as in the JSON ("engine", "lens.blades"), its value as JSON,
@@ -42,23 +42,23 @@ PETZVAL_API Result<Look> look_from_json(const std::string& text);
 // type.
 PETZVAL_API Result<Look> look_with(Look look, const std::string& path, const std::string& value);
 
-// Files that a look names (a lens, pictures of an aperture or of a disc) stand in its text as they are seen
-// from the folder of the look, so that both can be moved together; in a Look they are as seen from the
-// current folder. A lens is a file where its name has a slash in it, or an extension and is there.
+// Paths in a look's text (a lens, pictures of an aperture or of a disc) are relative to the folder of the
+// look, so that both can be moved together; in a Look they are relative to the current folder. The name of
+// a lens is a path if it contains a slash, or has an extension and the file exists.
 
 // Errors: InvalidFile with the path: no regular file, more than a megabyte, or what look_from_json() refuses.
 // `path` may also be a link of the lens lab. Errors of a link: InvalidFile.
 PETZVAL_API Result<Look> read_look(const std::string& path);
-// The text of a look file that lies in `folder`.
+// The text of a look file for `folder`.
 PETZVAL_API std::string look_to_json_in(const Look& look, const std::string& folder);
 
 // The folder of a user's own presets, NAME.json: $PETZVAL_PRESETS, otherwise petzval/presets in
-// $XDG_CONFIG_HOME or ~/.config; empty where none of them is set.
+// $XDG_CONFIG_HOME or ~/.config; empty if none of them is set.
 PETZVAL_API std::string preset_folder();
-// A preset of that folder, otherwise one that ships. Errors: those of read_look(); InvalidArgument that
+// A preset of that folder, otherwise a built-in one. Errors: those of read_look(); InvalidArgument that
 // lists all presets.
 PETZVAL_API Result<Look> read_preset(const std::string& name);
-// All of them, a user's own first; broken files are left out.
+// All presets, the user's own first; broken files are skipped.
 PETZVAL_API std::vector<LookPreset> all_presets();
 
 }  // namespace petzval

@@ -18,13 +18,14 @@ namespace petzval {
 // The attribute of an EXR, and the keyword of a PNG's text.
 inline constexpr const char* kMadeWith = "petzval:madeWith";
 
-// Settings by their field names, as lens.blades, each with its value as JSON. Settings that are left at their
-// defaults are not among them, and neither are those that change no pixel: threads, memory, where results go.
+// Settings by their field names, such as lens.blades, each with its value as JSON. It does not contain
+// settings at their defaults, nor settings that change no pixel, such as threads, memory and output paths.
 class PETZVAL_API MadeWith {
 public:
     void add(const std::string& field, const std::string& text);
     void add(const std::string& field, double value);
-    void add(const std::string& field, const std::optional<double>& value);  // nothing where it is not given
+    void add(const std::string& field,
+             const std::optional<double>& value);  // adds nothing if it is not given
     // Each call adds the fields that were chosen: of a look, those that differ from their defaults; of a
     // source, likewise, with its camera and without file names; of a display choice, those that were given.
     void add(const Look& look);
@@ -35,8 +36,8 @@ public:
 
     // One line of JSON: the version of petzval, then every setting. The same settings have the same text.
     std::string text() const;
-    // The differences between the settings in `text_of_picture` and these, as "camera.f_number was 2.8 and is
-    // 4". Empty if both are the same.
+    // The differences between the settings in `text_of_picture` and these, such as "camera.f_number was 2.8
+    // and is 4". Empty if both are the same.
     std::string difference(const std::string& text_of_picture) const;
 
 private:
@@ -46,13 +47,13 @@ private:
 // The treatment of outputs that already exist.
 enum class ExistingOutputs {
     Replace,
-    Keep,    // they are left alone
-    Update,  // they are left alone where they are newer than all inputs and made with the same settings
+    Keep,    // existing outputs are kept
+    Update,  // existing outputs are kept if newer than all inputs and made with the same settings
 };
 
 struct OutputState {
     bool is_kept = false;
-    std::string why;  // it is kept; or, of Update, what is there is made again; may be empty
+    std::string why;  // why it is kept or, for Update, made again; may be empty
 };
 
 // Decides whether existing outputs are kept. The first output is the picture that holds the settings;

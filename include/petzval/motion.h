@@ -1,5 +1,5 @@
-// Motion vectors, as renderers write them beside the colour: where the surface of a pixel lies in the frames
-// before and after.
+// Motion vectors of renderers: the position of a pixel's surface in the frames before and
+// after.
 #pragma once
 
 #include "petzval/image.h"
@@ -28,19 +28,19 @@ struct MotionVectors {
     }
 };
 
-// The motion vectors that are read from a file, and the meaning of their values.
+// The choice of motion vectors in a file, and the meaning of their values.
 struct MotionReading {
-    // Without vectors: surfaces move as cameras and depth say (File), nothing moves but what visibly does
-    // (Still), or motion is estimated from the pictures and their depths (Flow).
+    // Without vectors, motion follows from cameras and depth (File), is assumed to be none (Still), or is
+    // estimated from the pictures and their depths (Flow).
     enum class From { File, Still, Flow };
     From from = From::File;
     bool wanted = false;  // read vectors
-    // A layer or part; empty: "detect, and say what was taken". By names of their channels, x to the right
-    // and y upwards in pixels: X, Y, Z, W are Blender's, the way here from the next frame and to the previous
-    // one (Cycles, kernel/geom/primitive.h: Z, W hold the present place less the next); `forward` and
-    // `backward` with u, v are the ways to the next and to the previous frame (Foundry's VectorGenerator;
-    // what of ILM's public frames moves fits it); two channels of any other layer the way to the next frame
-    // (Arnold's motionvector, V-Ray's velocity: from the current to the next frame).
+    // A layer or part; empty: detected and reported. The names of the channels give their meaning, in
+    // pixels, x right and y up. X, Y, Z, W are Blender's: the motion from here to the previous frame, and
+    // the negative motion to the next (Cycles, kernel/geom/primitive.h: Z, W are the present position minus
+    // the next). `forward` and `backward` with u, v are the motion to the next and to the previous frame
+    // (Foundry's VectorGenerator; ILM's public frames agree). Two channels of any other layer are the
+    // motion to the next frame (Arnold's motionvector, V-Ray's velocity).
     std::string layer = {};
     // Factors that turn the file's values into pixels per frame: 2 if the vectors span half a frame of
     // shutter, -1 if they point the other way, the picture's width in pixels if they are fractions of it.

@@ -1,5 +1,5 @@
-// Names of all that can be chosen from a few: one table per enum. Flags, looks and reports say these words;
-// none is ever renamed without the old one still accepted.
+// Names of the values of enums, one table per enum. Flags, looks and reports use these names; after a
+// change, the old name is still accepted.
 #pragma once
 
 #include "petzval/camera.h"
@@ -18,7 +18,7 @@
 
 namespace petzval {
 
-// A value, what it is called, and in a few words what it is.
+// A value, its name, and a short description.
 template <typename E>
 struct Named {
     E value;
@@ -26,7 +26,7 @@ struct Named {
     const char* meaning;
 };
 
-// Every value of the enum once, in the order in which people should read them. Of the enums below alone.
+// Every value of the enum once, in reading order. For the enums below only.
 template <typename E>
 std::span<const Named<E>> names();
 
@@ -85,7 +85,7 @@ requires std::is_enum_v<E> Result<E> parse(const std::string& text) {
     return Error{ErrorCode::InvalidArgument, "not one of " + all};
 }
 
-// " (did you mean X?)" where one of the known words is near the given one, else nothing. For messages.
+// " (did you mean X?)" if a known word is similar to the given one, else empty. For messages.
 PETZVAL_API std::string did_you_mean(const std::string& given, const std::vector<std::string>& known);
 
 }  // namespace petzval

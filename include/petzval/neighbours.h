@@ -18,14 +18,15 @@ namespace petzval {
 // `frames` is ascending.
 PETZVAL_API std::vector<int> frames_around(std::span<const int> frames, int frame, int each_side);
 
-// Each is read once and kept while frames near it may follow: at most 2 * `each_side` + 1 pictures, with
-// their depths 20 bytes a pixel, with motion vectors to both sides 36. Several threads may ask at once.
+// Reads each frame once and keeps it while nearby frames may need it: at most 2 * `each_side` + 1 pictures
+// of 20 bytes per pixel with depth, or 36 with motion vectors in both directions. Several threads may use
+// it at once.
 class PETZVAL_API Neighbours {
 public:
     using Read = std::function<Result<Shot>(int frame)>;
     // frames: the frames of the shot that exist, ascending. max_memory_bytes: limit for kept pictures, the
-    // frame itself and the work on both; 0: no limit. Requires: each_side > 0.
-    // from: how surfaces move where frames have no motion vectors.
+    // frame itself and the work on both; 0: no limit. Requires: each_side > 0. from: the motion of surfaces
+    // if frames have no motion vectors.
     Neighbours(std::vector<int> frames, int each_side, Read read, std::size_t max_memory_bytes = 0,
                MotionReading::From from = MotionReading::From::File);
     ~Neighbours();

@@ -1,5 +1,5 @@
-// Displays and views of OpenColorIO, by the config that $OCIO names. Optional component petzval::ocio; the
-// library itself knows nothing of it.
+// Displays and views of the OpenColorIO config in $OCIO. Optional component petzval::ocio; the library
+// itself does not use it.
 #pragma once
 
 #include "petzval/develop.h"
@@ -22,7 +22,7 @@ struct OcioView {
 };
 
 struct OcioPicture {
-    Picture codes;  // r, g, b as the display wants them, 0…1 where it can show them
+    Picture codes;  // r, g, b for the display, 0…1 inside its range
     std::string display, view, space;
     std::vector<std::string> warnings;
 };
@@ -35,7 +35,7 @@ struct OcioPicture {
 PETZVAL_API Result<OcioPicture> ocio_codes(View<const Rgba> picture, const OcioView& view = {},
                                            int threads = 0, Workers* workers = nullptr);
 
-// A text as people type it: "DISPLAY,VIEW", "DISPLAY", or "default" for the config's own.
+// Parses "DISPLAY,VIEW", "DISPLAY", or "default" for the config's own.
 PETZVAL_API OcioView ocio_view(const std::string& text);
 
 // Exposes the light and replaces it by ocio_codes(), in the form of ShotRunHost::to_display: `settings` then

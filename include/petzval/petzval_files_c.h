@@ -12,8 +12,8 @@
 extern "C" {
 #endif
 
-/* The sentence of this thread's last failing call of this library; "" if none failed. Lives until its next.
- */
+/* The error of this thread's last failing call of this library; "" if none failed. Lives until the next.
+ * */
 PETZVAL_C_API const char* petzval_files_error_text(void);
 
 typedef struct petzval_shot_source {
@@ -33,7 +33,7 @@ typedef struct petzval_shot_source {
     const char* lights;
     const char* const* layers; /* layer_count names of colour layers that are blurred as well, or "all" */
     uint64_t layer_count;
-    const petzval_camera* camera; /* numbers that are not 0 win over those of the file; may be null */
+    const petzval_camera* camera; /* numbers other than 0 override those of the file; may be null */
     int threads;                  /* 0: all */
     uint64_t max_memory_bytes;    /* of the pixels; 0: no limit */
 } petzval_shot_source;

@@ -13,9 +13,9 @@ extern "C" {
 /* One stage of a frame: "blur", "falloff" (light lost towards the corners) or "glare", in the order of
  * physics; or "light": falloff and glare in one call. The shot's colour is the result of the stage before.
  * All stages in turn give the bits of petzval_defocus() for looks without expand_highlights and shots without
- * mask. The stages after the blur need an empty region, and leave out the shot's layers and mask:
- * the report's warnings name these. A stage that the look leaves out copies the picture. Errors:
- * invalid_file, unsupported, cancelled. */
+ * mask. The stages after the blur need an empty region, and leave out the shot's layers and mask: the
+ * report's warnings name these. A stage that the look does not use copies the picture. Errors: invalid_file,
+ * unsupported, cancelled. */
 PETZVAL_C_API petzval_status petzval_defocus_stage(petzval_session* session, const char* stage,
                                                    const petzval_shot* shot, const petzval_look* look,
                                                    const petzval_control* control, const petzval_pixels* out,
@@ -32,8 +32,8 @@ typedef struct petzval_codes {
     const char* tone;                /* "none", "reinhard", "filmic"; null: "filmic" */
     const char* transfer;            /* "srgb", "gamma22", "gamma20", "linear"; null: "srgb" */
     int no_dither;
-    /* The pixels they show, as the shot's windows are; black where nothing was made. Empty: the display
-     * window. */
+    /* The window of the codes, in pixels like the shot's windows; black where nothing was made. Empty: the
+     * display window. */
     petzval_rect window;
 } petzval_codes;
 

@@ -12,38 +12,38 @@ extern "C" {
 
 typedef struct petzval_lens petzval_lens;
 
-/* A lens that ships, by its name, or a lens file, by its path. The file is read here and never again.
- * Errors: invalid_file. */
+/* A built-in lens, by its name, or a lens file, by its path. The file is read here and never again. Errors:
+ * invalid_file. */
 PETZVAL_C_API petzval_status petzval_lens_open(const char* name_or_file, petzval_lens** lens);
 /* The content of a lens file in any format that petzval reads, as JSON text. `name` stands for it in messages
  * and reports; null: "lens". Errors: invalid_file. */
 PETZVAL_C_API petzval_status petzval_lens_from_memory(const void* bytes, size_t byte_count, const char* name,
                                                       petzval_lens** lens);
-/* The same lens used as a look says: all fields of the look's "lens" but the name (blades, cat's eye, added
- * aberrations, light, …). Nothing is read. Errors: unsupported. */
+/* The same lens with a look's options: all fields of the look's "lens" except the name (blades, cat's eye,
+ * added aberrations, light, …). No file is read. Errors: unsupported. */
 PETZVAL_C_API petzval_status petzval_lens_with(const petzval_lens* lens, const petzval_look* look,
                                                petzval_lens** changed);
 PETZVAL_C_API void petzval_lens_close(petzval_lens* lens);
 /* As it was opened. Lives as long as the lens. */
 PETZVAL_C_API const char* petzval_lens_title(const petzval_lens* lens);
 
-/* Frames with this look use this lens, and open no file: lens.name becomes its name, all other fields of the
- * look stay. Setting another lens.name lets go of it. The lens may be closed at once. */
+/* Frames with this look use this lens and open no file: lens.name becomes its name; all other fields are
+ * unchanged. Setting another lens.name removes the lens again. The lens may be closed at once. */
 PETZVAL_C_API petzval_status petzval_look_set_lens(petzval_look* look, const petzval_lens* lens);
 
-/* A lens speaks in pixels only on a camera and for pictures of one size. */
+/* The camera and the picture size that express a lens in pixels. */
 typedef struct petzval_lens_mount {
     size_t size;
-    /* Null, and numbers that are 0: those the lens was built for, focused at infinity. */
+    /* Null, or numbers that are 0: the lens's own camera, focused at infinity. */
     const petzval_camera* camera;
     int width, height;   /* of the picture; both 0: 1920 x 1080 */
     double pixel_aspect; /* width / height of a pixel; 0: 1 */
 } petzval_lens_mount;
 
-/* Every lens that ships: an array of {"name", "title", "class", "model", "year", …}. */
+/* Every built-in lens: an array of {"name", "title", "class", "model", "year", …}. */
 PETZVAL_C_API petzval_status petzval_lens_list(petzval_text** lenses);
-/* First-order numbers, Seidel sums, aberrations on the axis and over the field: as `petzval lens show --json`
- * has them. */
+/* First-order numbers, Seidel sums, aberrations on the axis and over the field: as in `petzval lens show
+ * --json`. */
 PETZVAL_C_API petzval_status petzval_lens_facts(const petzval_lens* lens, petzval_text** facts);
 /* The curves among the facts: "longitudinal_aberration_mm" and "field". */
 PETZVAL_C_API petzval_status petzval_lens_curves(const petzval_lens* lens, petzval_text** curves);
@@ -55,13 +55,13 @@ PETZVAL_C_API petzval_status petzval_lens_section(const petzval_lens* lens, cons
                                                   double depth_m, double field_x, double field_y,
                                                   int rays_across, petzval_text** section);
 
-/* One disc: what the lens makes of a point of light, all wavelengths of the lens's light summed to
- * scene-linear r, g, b, each of which sums to 1. */
+/* One disc: the image of a point of light, with all wavelengths of the lens's light summed to scene-linear r,
+ * g, b, each of which sums to 1. */
 typedef struct petzval_disc {
     size_t size;
     double coc_radius_px;    /* signed, + behind focus */
     double field_x, field_y; /* -1…1 of the half diagonal, x right, y up */
-    int raw;                 /* 1: colours that no screen has stay, as negative values */
+    int raw;                 /* 1: keeps colours outside the gamut, as negative values */
 } petzval_disc;
 
 typedef struct petzval_disc_report {
@@ -70,11 +70,11 @@ typedef struct petzval_disc_report {
     double lost_share; /* of the light, outside of a smaller picture */
 } petzval_disc_report;
 
-/* Sides of a square that surely holds the disc, at least its needed_px; no disc is made for it. */
+/* Side of a square that certainly contains the disc, at least its needed_px; no disc is made. */
 PETZVAL_C_API petzval_status petzval_lens_disc_size(const petzval_lens* lens, const petzval_lens_mount* mount,
                                                     const petzval_disc* disc, int* size_px);
-/* Into `out`, a square of an odd number of pixels; the source stands in the middle one. a is the weight of
- * alpha. mount and report may be null. */
+/* Writes the disc into `out`, a square of an odd number of pixels; the source is in the middle one. a is the
+ * weight of alpha. mount and report may be null. */
 PETZVAL_C_API petzval_status petzval_lens_disc(const petzval_lens* lens, const petzval_lens_mount* mount,
                                                const petzval_disc* disc, const petzval_pixels* out,
                                                petzval_disc_report* report);
@@ -84,7 +84,7 @@ PETZVAL_C_API petzval_status petzval_lens_disc(const petzval_lens* lens, const p
 typedef struct petzval_texture {
     size_t size;
     int columns;           /* 2…16384; 0: 512 */
-    double largest_coc_px; /* the first column is so far in front of focus, the last behind; 0: 64 */
+    double largest_coc_px; /* the first column has this radius in front of focus, the last behind; 0: 64 */
     int even;              /* 0: radii grow with the square of the distance from the middle column */
     int rows_per_px;       /* 1…16; 0: 4 */
     int raw;               /* as of a disc */
@@ -92,12 +92,12 @@ typedef struct petzval_texture {
     int threads;           /* 0: all that this process may use */
 } petzval_texture;
 
-/* Rows that surely hold the texture; none of it is made. */
+/* Number of rows that certainly contain the texture; no texture is made. */
 PETZVAL_C_API petzval_status petzval_lens_texture_rows(const petzval_lens* lens,
                                                        const petzval_lens_mount* mount,
                                                        const petzval_texture* texture, int* rows);
-/* Into `out`, `columns` wide and at least as high as the texture; rows below it are 0. coc_radius_px, of one
- * value a column, mount and used_rows may be null. */
+/* Writes the texture into `out`, `columns` wide and at least as high as the texture; rows below it are 0.
+ * coc_radius_px (one value per column), mount and used_rows may be null. */
 PETZVAL_C_API petzval_status petzval_lens_texture(const petzval_lens* lens, const petzval_lens_mount* mount,
                                                   const petzval_texture* texture, const petzval_pixels* out,
                                                   double* coc_radius_px, int* used_rows);

@@ -31,14 +31,14 @@ typedef struct petzval_run_host {
 PETZVAL_C_API petzval_status petzval_files_run_open(const petzval_session_settings* settings,
                                                     const char* json, const petzval_run_host* host,
                                                     petzval_files_run** run);
-/* Everything that can be refused before the work; petzval_files_run_all() calls it where it was not called.
- * Errors: invalid_file. */
+/* Checks everything that can be refused before the work; petzval_files_run_all() calls it if it was not
+ * called. Errors: invalid_file. */
 PETZVAL_C_API petzval_status petzval_files_run_plan(petzval_files_run* run);
 /* The frames that are made; known after the plan. Lent until the run is closed. */
 PETZVAL_C_API petzval_status petzval_files_run_frames(const petzval_files_run* run, const int** frames,
                                                       uint64_t* count);
-/* All frames; one that fails does not keep the others from being made. Errors: invalid_file, output_failed,
- * unsupported, cancelled. */
+/* Makes all frames; a failed frame does not stop the run. Errors: invalid_file, output_failed, unsupported,
+ * cancelled. */
 PETZVAL_C_API petzval_status petzval_files_run_all(petzval_files_run* run);
 /* The frames that failed. Lent until the run is closed. */
 PETZVAL_C_API petzval_status petzval_files_run_failed(const petzval_files_run* run, const int** frames,

@@ -1,5 +1,5 @@
-// A host's pixels, as hosts hold them: interleaved or planar, with or without alpha, half or float, rows
-// top-down or bottom-up. Read into pictures of ours, and written from them.
+// A host's pixels: interleaved or planar, with or without alpha, half or float, rows top-down or bottom-up.
+// They are read into our pictures and written from them.
 #pragma once
 
 #include "petzval/export.h"
@@ -27,7 +27,7 @@ struct ColourView {
     std::array<PlaneView, 4> channels;
 };
 
-// Requires, of all: one size.
+// Requires: all sizes are equal.
 PETZVAL_API void read_pixels(const ColourView& from, View<Rgba> into);
 PETZVAL_API void read_pixels(const PlaneView& from, View<float> into);
 // Halves are rounded to the nearest, ties to even; beyond 65504 they are infinite.

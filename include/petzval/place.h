@@ -1,5 +1,5 @@
-// Position of a picture's pixels in the frame: the display window, the data window and the pixel aspect are
-// only useful together.
+// Position of a picture's pixels in the frame: display window, data window and pixel
+// aspect.
 #pragma once
 
 #include "petzval/export.h"
@@ -27,8 +27,8 @@ struct PixelField {
 };
 
 struct Place {                // corners of both windows are from -2^29 to 2^29 px
-    Rect display_window;      // the frame: what a viewer shows, and what the sensor is as wide as
-    Rect data_window;         // the pixels there are: smaller, larger or offset
+    Rect display_window;      // the frame, which a viewer shows and the sensor's width spans
+    Rect data_window;         // the existing pixels: smaller, larger or offset
     double pixel_aspect = 1;  // width / height of a pixel
 
     // A picture that is its own frame.
@@ -49,7 +49,7 @@ struct Place {                // corners of both windows are from -2^29 to 2^29 
     friend bool operator==(const Place&, const Place&) = default;
 };
 
-// The pixels that cover `data`, as `window` shows them; `fill` where there are none. Both windows are in
+// The part of the pixels in `data` that `window` shows; `fill` where there are none. Both windows are in
 // pixels of the same frame.
 template <typename T>
 Image<T> through_window(const Image<T>& pixels, const Rect& data, const Rect& window, T fill) {

@@ -1,5 +1,5 @@
-// The parts of a record, as JSON texts: what a run says of a frame to programs (docs/reference/report.md),
-// and lines about a camera for people. Component petzval::files.
+// The parts of a frame's record as JSON texts (docs/reference/report.md), and lines about a camera for
+// logs. Component petzval::files.
 #pragma once
 
 #include "petzval/camera.h"
@@ -16,12 +16,13 @@
 
 namespace petzval {
 
-// Fields as a host calls them; empty: as they are.
+// The host's name of a field; empty: unchanged.
 using InWords = std::function<std::string(const std::string&)>;
 
-// A number as JSON; NaN is null, and infinity, which JSON has not, a text that finished_record() replaces.
+// A number as JSON. NaN is null; infinity, which JSON does not have, is a text that finished_record()
+// replaces.
 PETZVAL_API std::string record_of_number(double value);
-// Every key that a record always holds, with nothing in them yet.
+// A record with every key that it always contains, all empty.
 PETZVAL_API std::string empty_record(const std::string& verb);
 PETZVAL_API std::string record_of_camera(const FoundCamera& camera, ImageScale image_scale);
 PETZVAL_API std::string record_of_lens(const Look& look, const std::string& description);
@@ -29,8 +30,8 @@ PETZVAL_API std::string record_of_glare(const Look& look);  // null where there 
 PETZVAL_API std::string record_of_depth(const DepthReport& depth, DepthKind kind);
 PETZVAL_API std::string record_of_limits(const FocusLimits& limits, double permissible_radius_px);
 
-// The record as it is written, ending with a line break: on one line where `indent` is below 0; infinity is
-// 1e999, valid JSON that readers take as infinity; lines, origins and errors in the words of the host.
+// The record as it is written, ending with a line break, on one line if `indent` is below 0. Infinity is
+// 1e999, valid JSON that readers take as infinity. Lines, origins and errors use the host's names.
 PETZVAL_API std::string finished_record(const std::string& record, int indent, const InWords& in_words = {});
 
 // Largest resident memory of this process so far.

@@ -18,13 +18,13 @@ enum class ErrorCode {
     ReadFailed,       // the system failed to read an input; another try may succeed
 };
 
-// One sentence: the problem, its place, and the accepted values. No trailing newline. Choices are named by
-// their field, as camera.f_number (those of a look as in petzval/look_json.h); a program may substitute its
+// One sentence: the problem, its place, and the accepted values. No trailing newline. Settings are named by
+// their field, such as camera.f_number (for a look, see petzval/look_json.h); a program may substitute its
 // own names.
 struct Error {
     ErrorCode code = ErrorCode::InvalidArgument;
     std::string message;
-    std::string field = {};  // the choice that is wrong, where it is one
+    std::string field = {};  // the wrong setting, if there is one
 };
 
 // A value or an Error.

@@ -23,7 +23,7 @@ namespace petzval {
 
 struct SceneSummary {
     std::string name, purpose;  // one line each
-    Camera camera;              // the numbers it is meant for
+    Camera camera;              // the scene's own camera
     int frames = 1;             // > 1: it moves
 };
 
@@ -36,7 +36,7 @@ struct ScenePoint {
 
 struct SceneSettings {
     int width = 960, height = 540;
-    int overscan_px = 0;       // beyond the frame on every side, for all but the truth
+    int overscan_px = 0;       // beyond the frame on every side, for all pictures except the truth
     int samples = 64;          // per pixel for the pinhole picture's box filter
     int truth_samples = 1024;  // lens samples per pixel for the truth
     std::uint64_t seed = 1;
@@ -46,13 +46,15 @@ struct SceneSettings {
     // Position of the camera, and the point in the middle of its picture; upright. Default: the scene's own
     // at that frame. With camera_at only, the direction stays.
     std::optional<ScenePoint> camera_at, look_at;
-    // Depth as a network guesses it from a photograph: 1/depth blurred by a Gaussian of so many pixels'
-    // standard deviation, and in 2^bits even steps. 0: exact. Truth and layers keep the exact depth.
+    // Depth as a neural network estimates it from a photograph: 1/depth is blurred by a Gaussian of this
+    // standard deviation in pixels and rounded to 2^bits even steps. 0: exact. Truth and layers keep the
+    // exact depth.
     double depth_blur_px = 0;
     int depth_bits = 0;
-    // Lit as programs did that took display codes for light: colours of things have the codes (gamma 2.2) of
-    // theirs, lights such brightness as makes a white sheet its code, and codes are added. The pictures then
-    // hold codes, to be shown as they are. Not of scenes that are shaded as they are seen, nor of files.
+    // Lights the scene like programs that treated display codes as light: colours are replaced by their
+    // codes (gamma 2.2), a light has the brightness that gives a white sheet its code, and codes are added.
+    // The pictures then contain codes, to be shown unchanged. Not for scenes with their own shading, nor
+    // for files.
     bool lit_in_codes = false;
     bool want_truth = false, want_layers = false;
     bool want_motion = false;              // of a scene that moves
@@ -66,16 +68,16 @@ struct RenderedScene {
     // Matrix from the world to the camera, row by row, for row vectors (x, y, z, 1), as in OpenEXR's
     // worldToCamera. The camera looks along its +z; in the picture, +x is right and +y is up.
     std::array<double, 16> camera_from_world{};
-    Rect data_window;      // of all but the truth; the frame is {0, 0, width, height}
+    Rect data_window;      // of all pictures except the truth; the frame is {0, 0, width, height}
     Picture colour;        // pinhole, box-filtered
     Plane depth_m;         // planar, one unfiltered sample at the pixel centre; +infinity for a miss
-    MotionVectors motion;  // when asked for: of what lies at the pixel's centre; NaN beyond the near plane
-    Picture truth;         // through the lens, when asked for
-    // Depth-peeled samples when asked for: every surface hidden behind the visible one, each with its own
-    // coverage; in pixels where several surfaces show, also the visible ones with their own coverage. So the
-    // visible picture comes first where the first sample lies behind depth_m, and is contained in the samples
-    // elsewhere. A sample's depth is the mean of its surface in the pixel (of 1/depth); surfaces of one
-    // object less than 1 % of their depth apart count as one; what is seen of the sky lies at +infinity.
+    MotionVectors motion;  // if requested: of the surface at the pixel's centre; NaN beyond the near plane
+    Picture truth;         // through the lens, if requested
+    // Depth-peeled samples, if requested: every surface hidden behind the visible one, with its own
+    // coverage; in pixels that show several surfaces, also the visible ones. So if a pixel's first sample
+    // lies behind depth_m, the visible picture is in front of the samples; otherwise it is contained in
+    // them. A sample's depth is the mean of its surface in the pixel (of 1/depth); surfaces of one object
+    // less than 1 % of their depth apart count as one; the sky lies at +infinity.
     DeepPicture layers;
 };
 
@@ -83,7 +85,7 @@ struct RenderedScene {
 // message lists them) or numbers out of range; Cancelled.
 PETZVAL_API Result<RenderedScene> render_scene(const std::string& name, const SceneSettings& settings);
 
-// A scene that is built and lit once, and looked at from many places, by one thread at a time. `name`: a
+// A scene that is built and lit once and rendered from many places, by one thread at a time. `name`: a
 // built-in one, or a glTF file, which ends in .gltf or .glb (by tinygltf, where it was found).
 class PETZVAL_API StandingScene {
 public:
@@ -94,14 +96,15 @@ public:
     StandingScene(StandingScene&&) noexcept;
     StandingScene& operator=(StandingScene&&) noexcept;
 
-    // The same bits as render_scene(). Errors: also InvalidArgument for another frame than it was built for.
+    // The same bits as render_scene(). Errors: also InvalidArgument for a frame other than the one it was
+    // built for.
     Result<RenderedScene> render(const SceneSettings& settings);
     // Position of the scene's subject in this frame; nothing if the scene has no particular subject.
     std::optional<ScenePoint> subject() const;
-    const Camera& camera() const;                      // the scene's own
-    int frames() const;                                // > 1: it moves; of a file, 24 a second
-    const std::vector<std::string>& cameras() const;   // of a file: those to choose from
-    const std::vector<std::string>& warnings() const;  // of a file: what of it could not be read
+    const Camera& camera() const;                     // the scene's own
+    int frames() const;                               // > 1: the scene moves; 24 frames per second for a file
+    const std::vector<std::string>& cameras() const;  // of a file: the available ones
+    const std::vector<std::string>& warnings() const;  // of a file: the parts that could not be read
 
 private:
     struct Contents;
@@ -112,16 +115,16 @@ private:
 // Lights without a picture, for Rendered::lights: glitter on water, a city at night, drops on the lens.
 struct PointSetSummary {
     std::string name, purpose;  // one line each
-    int count = 0;              // lights, unless told otherwise
+    int count = 0;              // default number of lights
     bool has_horizon = false;
 };
 
 PETZVAL_API const std::vector<PointSetSummary>& point_set_list();
 
 struct PointSettings {
-    int width = 960, height = 540;  // of the picture they are meant for
-    // The pinhole that sees them; it looks along the horizon, shifted so that this lies `horizon` of the
-    // height below the top.
+    int width = 960, height = 540;  // of the picture for which they are made
+    // The pinhole camera. It looks along the horizon and is shifted so that the horizon lies at this
+    // fraction of the height below the top.
     double focal_length_mm = 50, sensor_width_mm = 36;
     double horizon = 0.5;
     int count = 0;  // 0: the set's own
@@ -129,9 +132,9 @@ struct PointSettings {
 };
 
 // Points ordered by depth, all finite, none negative; the same for the same settings on every machine with
-// IEEE arithmetic. Light is scaled with the area a pixel sees, so that a larger picture shows the same
-// lights. Errors: InvalidArgument for an unknown set (the message lists them), numbers out of range, or too
-// many points.
+// IEEE arithmetic. Light is scaled with the area of a pixel, so a larger picture shows the same lights.
+// Errors: InvalidArgument for an unknown set (the message lists them), numbers out of range, or too many
+// points.
 PETZVAL_API Result<std::vector<LightPoint>> make_points(const std::string& name,
                                                         const PointSettings& settings);
 

@@ -17,7 +17,7 @@ namespace petzval {
 struct SeenElsewhere {
     DeepPicture behind;  // of the shot's data window: at most one sample a pixel; empty if nothing was found
     std::size_t pixels = 0;
-    // A pixel of the data window that shows the light of a lamp, and has the depth of something else.
+    // A pixel of the data window that shows a lamp but has another surface's depth.
     struct Lamp {
         int x = 0, y = 0;
         float depth_m = 0;  // of the lamp
@@ -25,13 +25,13 @@ struct SeenElsewhere {
     std::vector<Lamp> lamps;            // by rows
     int by_motion = 0;                  // pictures that were moved by their motion vectors
     std::size_t kept_bytes = 0;         // by Neighbours: pictures for the frames that follow
-    std::vector<std::string> left_out;  // pictures, or their vectors, that could not be used; a line each
+    std::vector<std::string> left_out;  // one line for each picture, or its vectors, that could not be used
 };
 
 // Another picture of a shot's surfaces.
 struct OtherPicture {
     const Shot* shot = nullptr;
-    int frames_later = 0;  // than the shot; 0: of the same moment, as the other eye
+    int frames_later = 0;  // later than the shot; 0: the same moment, such as the other eye
     // Without motion vectors, of another moment: Still, or estimated by optical flow (Flow).
     MotionReading::From motion_from = MotionReading::From::File;
 };
@@ -39,37 +39,37 @@ struct OtherPicture {
 // Projects the pixels of `others` into the view of `shot` and keeps those that lie behind the shot's own
 // surface. If several pictures know a pixel, the first one is used.
 //
-// By OtherPicture::motion_from, a picture without vectors stands still, or its motion is estimated; it is
-// left out by the same rules as by vectors.
+// Without vectors, OtherPicture::motion_from decides: no motion, or estimated motion. The rules for
+// ignoring a picture are those for vectors.
 //
 // With motion vectors, pixels of another moment follow them from frame to frame through the pictures between;
 // where one of those hides the pixel, its motion continues uniformly. Otherwise both cameras (worldToCamera,
 // focal length, sensor width) and depths project the pixels. Cameras may look along +z or -z and may have x
 // to either side: the variant that fits most of the picture is used.
 //
-// A picture is left out, with a line that says so, in these cases:
-// - by its camera, less than half of the picture looks the same: much moves by itself, and surfaces that were
-//   uncovered there may be covered now;
+// A picture is ignored, with a line in `left_out`, in these cases: - by its camera, less than half of
+// the picture looks the same: many objects move, and surfaces that were uncovered there may be covered
+// now;
 // - by its vectors, less looks the same than by its camera, or, if the camera explains less than half, less
 //   than seven tenths.
 //
-// Within a picture, surfaces (connected pixels at one depth) that move by themselves are left out as a whole.
-// Where both pictures see a surface, or one sees it slightly behind the other, at least nine in ten of its
-// pixels must agree in depth and half of these in colour. With vectors, a surface may have come nearer or
-// moved away as a whole. Also left out are pixels beside a nearer surface, which hold some of its light;
-// pixels that are not opaque; and whatever lies behind things narrower than three pixels, which the shot
-// separates more steadily by the surfaces on both of their sides.
+// Within a picture, surfaces (connected pixels at one depth) that move by themselves are ignored
+// completely. Where both pictures see a surface, or one sees it slightly behind the other, at least nine in
+// ten of its pixels must agree in depth and half of these in colour. With vectors, a surface may have come
+// nearer or moved away as a whole. Also ignored are pixels beside a nearer surface, which contain some of
+// its light; pixels that are not opaque; and surfaces behind objects narrower than three pixels, which the
+// shot separates more steadily by the surfaces on both sides.
 //
 // Small lamps are kept. A lamp narrower than a pixel, or half behind an edge, may light a pixel that has
-// another surface's depth in one frame and not in the next: the result states the lamp's depth there. Where
-// nothing shows the lamp, it joins the hidden surfaces, with less light the more frames away it was seen, so
-// that it fades in before it appears.
+// another surface's depth in one frame and not in the next: the result has the lamp's depth there. If no
+// pixel of the shot shows the lamp, it joins the hidden surfaces, with less light the more frames away it
+// was seen, so it fades in before it appears.
 //
 // Memory: about 80 bytes a pixel beside the pictures. Errors: InvalidArgument if `shot` itself has no depth
 // in metres, or, without vectors and motion_from, no camera or matrix.
 PETZVAL_API Result<SeenElsewhere> seen_elsewhere(const Shot& shot, std::span<const OtherPicture> others,
                                                  Workers& workers);
-// The same of one moment.
+// The same for pictures of one moment.
 PETZVAL_API Result<SeenElsewhere> seen_elsewhere(const Shot& shot, std::span<const Shot* const> others,
                                                  Workers& workers);
 

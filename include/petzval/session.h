@@ -1,5 +1,5 @@
-// Sessions keep data between frames: workers, kernels, one memory budget. `petzval::defocus(job)` is a
-// session of one frame.
+// A session keeps data between frames: workers, kernels, one memory budget. `petzval::defocus(job)` uses a
+// session for one frame.
 #pragma once
 
 #include "petzval/defocus.h"
@@ -23,8 +23,8 @@ struct SessionSettings {
     // Memory limit for frames in progress and for data kept between frames (at most an eighth of it; a
     // gibibyte without a limit). 0: no limit.
     std::size_t max_memory_bytes = 0;
-    // A folder in which kernels that take long to make are kept between runs, so many bytes at most, those
-    // not used longest go first; empty: none.
+    // Folder for slow kernels between runs, with at most this many bytes; the least recently used are
+    // removed first. Empty: none.
     std::string kernel_cache_folder = {};
     std::size_t kernel_cache_bytes = std::size_t(1) << 30;
     std::shared_ptr<Workers> workers = nullptr;  // those of a host, in place of `threads`; null: our own
@@ -38,14 +38,14 @@ struct SessionSettings {
 // ($XDG_CACHE_HOME, ~/.cache). Empty if the variable is "off" or there is no home folder.
 PETZVAL_API std::string default_kernel_cache_folder();
 
-// Applies what the lens of a look does to light besides blur: light lost towards the corners, then glare.
-// `picture` is already blurred. `rendered` gives its place in the frame and the camera; its pictures are not
-// used. Errors: those of check(look), add_falloff() and add_glare().
+// Applies the effects of a look's lens besides blur: falloff towards the corners, then glare. `picture` is
+// already blurred. `rendered` gives its place in the frame and the camera; its pictures are not used.
+// Errors: those of check(look), add_falloff() and add_glare().
 PETZVAL_API Result<Picture> add_light(Picture picture, const DefocusJob& rendered, const Look& look);
 
 // Request for a frame as display codes instead of light.
 struct CodesWanted {
-    DevelopSettings develop;  // its threads and workers are not asked
+    DevelopSettings develop;  // its threads and workers are not used
     // Window of the codes, in pixels of the display window like the data window; black outside the picture.
     // Empty: the display window.
     Rect window = {};
@@ -54,26 +54,27 @@ struct CodesWanted {
 // Control of one frame.
 struct Control {
     std::function<bool(double)> progress = {};  // share done 0…1, one call at a time; false cancels
-    // True cancels; asked often, by any thread at any time: a flag that another thread sets.
+    // True cancels. Called often, by any thread at any time; may read a flag that another thread sets.
     std::function<bool()> cancelled = {};
-    // Makes only this part of the frame, in pixels of the display window, as the data window is. The image is
-    // that part, bit for bit as in the whole frame. The cost is that of the part grown by region_margin_px();
-    // glare still takes the whole frame. Views and stages that replace the result are made whole.
+    // Makes only this part of the frame, in pixels of the display window, as the data window is. The image
+    // is that part, bit for bit as in the whole frame. The cost is that of the part grown by
+    // region_margin_px(); with glare it is that of the whole frame. Views and stages that replace the
+    // result cover the whole frame.
     std::optional<Rect> region = {};
     // For take() only: the report then holds the frame as codes, and its image is empty. A frame drawn by a
     // GPU is read back as codes if no later step needs its light on the CPU. Buffers that are shown instead
     // of a result stay images.
     std::optional<CodesWanted> codes = {};
-    // The look's lens, opened already: nothing is read. One of another choice is not used.
+    // The look's lens, already opened, so that no file is read. Ignored if it differs from the look's lens.
     std::optional<Lens> lens = {};
-    ScatterView view = ScatterView::Result;  // engine scatter: what is shown in place of a result
-    // Bytes of the session's memory that the caller holds beside, as frames around it.
+    ScatterView view = ScatterView::Result;  // engine scatter: the buffer that replaces the result
+    // Memory of the caller, such as other frames, that counts against the session's limit.
     std::size_t held_bytes = 0;
 };
 
 struct SessionUsage {
     std::size_t kept_bytes = 0;  // kernels and stars kept between frames
-    int lenses = 0;              // mounted on cameras, and kept
+    int lenses = 0;              // kept with their cameras
 };
 
 // A session may be used by any number of threads at once; simultaneous frames share the kept data. Results
@@ -90,23 +91,24 @@ public:
     // Unsupported with the field session.device if the device was lost; OutOfMemory, also for the device's
     // memory.
     Result<DefocusReport> defocus(const DefocusJob& job, const Control& control = {});
-    // The blur of a look alone: no falloff, no glare, and a plate keeps its highlights. Choices without
-    // effect are not listed. spare: as FrameStages::begin() has it. Errors: those above, and of Lens::open().
+    // Only the blur of a look: no falloff, no glare, and a plate's highlights stay expanded. Choices
+    // without effect are not listed. spare: as in FrameStages::begin(). Errors: those above, and of
+    // Lens::open().
     Result<DefocusReport> defocus(Rendered rendered, Look look, const Control& control = {},
                                   Picture spare = {});
-    // Makes a whole frame, in the order of physics: restore a plate's highlights, blur, lose light towards
-    // the corners, add glare, and return to the plate's range. `rendered` holds the pictures, their place and
-    // the camera; the look holds every choice. Choices without effect are listed in the report's warnings and
-    // not refused, because one look serves drafts and final frames; check() lists them beforehand. Stage
+    // Makes a whole frame in the order of physics: expands a plate's highlights, blurs, applies falloff,
+    // adds glare, and returns to the plate's range. `rendered` has the pictures, their place and the
+    // camera; the look has all choices. Choices without effect are listed in the report's warnings but not
+    // refused, because one look is used for drafts and final frames; check() lists them beforehand. Stage
     // "light" of the report is everything after the blur. spare: as in FrameStages::begin(). Errors: also
     // those of add_falloff(), add_glare(), expand_highlights() and check(), before any work.
     Result<DefocusReport> take(Rendered rendered, const Look& look, const Control& control = {},
                                Picture spare = {});
-    // Takes from a job its pictures, lens, view and memory. Other choices of the job that differ from the
-    // look are listed in the warnings.
+    // Uses the pictures, lens, view and memory of a job. Its other choices that differ from the look are
+    // listed in the warnings.
     Result<DefocusReport> take(const DefocusJob& rendered, const Look& look, const Control& control = {});
 
-    // Does the same as petzval::add_light(). The picture is whole; control.region is ignored.
+    // The same as petzval::add_light() for the whole picture; control.region is ignored.
     Result<Picture> add_light(Picture picture, const Rendered& rendered, const Look& look,
                               const Control& control = {});
     Result<Picture> add_light(Picture picture, const DefocusJob& rendered, const Look& look,

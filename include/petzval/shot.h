@@ -1,4 +1,4 @@
-// A shot: what was rendered, read from files and made ready for a session. Component petzval::files.
+// A shot: rendered pictures, read from files and prepared for a session. Component petzval::files.
 //
 //     petzval::ShotSource source{.path = "beauty.exr"};
 //     source.camera.f_number = 2;
@@ -41,15 +41,15 @@ struct RadiiPx {
 // Source of each pixel's blur; monostate if the file has none and none was requested.
 using ShotDepth = std::variant<std::monostate, DepthMetres, RadiiPx>;
 
-// The camera numbers of a user. Those that are given win over the file's.
+// The user's camera numbers, which override the file's.
 struct CameraChoice {
     std::optional<double> focal_length_mm = {}, sensor_width_mm = {}, f_number = {}, focus_distance_m = {};
     ImageScale image_scale = ImageScale::Rendered;
     // Diameter of the entrance pupil, instead of an f-number: f_number is focal_length_mm / this. Ignored
-    // beside f_number.
+    // if f_number is given.
     std::optional<double> aperture_diameter_mm = {};
-    // The widest aperture of the look's lens, where it has one, instead of an f-number: ShotRun and
-    // make_picture() put it into the camera. Ignored beside the two above.
+    // Uses the widest aperture of the look's lens, if it has one, instead of an f-number; ShotRun and
+    // make_picture() set it. Ignored if one of the two above is given.
     bool wide_open = false;
 };
 
@@ -62,12 +62,12 @@ struct ShotSource {
     // Meaning of depth in all files of the shot: kind, unit, range. The camera's numbers and the threads are
     // filled in. CocPx: radii in pixels.
     DepthSettings depth = {};
-    bool depth_kind_given = false;  // depth.kind is what a user said, not the default
+    bool depth_kind_given = false;  // depth.kind is the user's choice, not the default
     // Clean plate: RGBA and Z or deep, of the same data window. Empty: none.
     std::string behind = {};
-    std::string holdout = {};  // a matte that stays sharp and hides what is behind it
-    // Mask, "FILE" or "FILE:CHANNEL" of the same display window: any channel of an EXR; R, G, B or A of other
-    // files, whole numbers as fractions of full scale. Without a channel: alpha if it is not 1 everywhere,
+    std::string holdout = {};  // a matte that stays sharp and hides light behind it
+    // Mask, "FILE" or "FILE:CHANNEL" of the same display window: any channel of an EXR; R, G, B or A of
+    // other files, integers as fractions of full scale. Without a channel: alpha if it is not 1 everywhere,
     // otherwise luminance. Outside the file's pixels it is 0, beyond the frame its border value.
     std::string mask = {};
     std::vector<std::string> merge = {};  // more pictures of the shot, sorted in by depth
@@ -82,10 +82,10 @@ struct Shot {
     bool has_alpha = false;  // false: colour.a is 1 everywhere
     ShotDepth depth;
     DeepPicture deep;  // all samples of a deep input or of several files, else empty
-    // Hidden layers, and a matte; empty where there are none. All three know depth in the unit of `depth`.
+    // Hidden layers, and a matte; empty where there are none. All three have depth in the unit of `depth`.
     DeepPicture behind, holdout;
     MotionVectors motion;  // as source.read.motion asks
-    Plane mask;            // of the frame and the data window, whose union mask_window is; empty: everywhere
+    Plane mask;  // covers mask_window, the union of the frame and the data window; empty: everywhere
     Rect mask_window;
     // More layers of the colour's surfaces, as source.read.layers asks, blurred or copied.
     std::vector<FrameLayer> layers;
@@ -109,23 +109,23 @@ struct Shot {
     PETZVAL_API View<const float> depth_plane() const;
 };
 
-// "FILE:CHANNEL" apart; a file that is there by the whole name has no channel.
+// Splits "FILE:CHANNEL"; if a file with the whole name exists, there is no channel.
 struct FileChannel {
     std::string file, channel;
 };
 PETZVAL_API FileChannel file_channel(const std::string& text);
 
-// The files that a source and a look name: pictures, depth, lights; the lens and its pictures where it is a
-// file.
+// The files that a source and a look name: pictures, depth, lights; the lens, if it is a file, and its
+// pictures.
 PETZVAL_API std::vector<std::string> files_of(const ShotSource& source);
 PETZVAL_API std::vector<std::string> files_of(const Look& look);
 
 // Errors: InvalidArgument for settings that contradict each other (depth.kind without its depth.range, …).
 PETZVAL_API Status check(const ShotSource& source);
 
-// All that the source names. `control` is asked between files and by loops; its progress is called once per
-// file. Errors: those of check(), read_frame() and depth_to_planar_metres(); InvalidFile where a file does
-// not fit the picture (another window, lights by depth where there are radii), Cancelled.
+// Reads all files of the source. `control` is polled between files and in loops; its progress is called
+// once per file. Errors: those of check(), read_frame() and depth_to_planar_metres(); InvalidFile if a file
+// does not fit the picture (another window, or lights by depth with radii); Cancelled.
 PETZVAL_API Result<Shot> read_shot(const ShotSource& source, const Control& control = {});
 
 // The user's numbers over the file's; origins of the user's are field names, as camera.f_number. A distance
@@ -136,7 +136,7 @@ PETZVAL_API FoundCamera merged_camera(const FoundCamera& file, const CameraChoic
 // Errors: InvalidArgument naming every number that is missing: "no f-number; give camera.f_number".
 PETZVAL_API Result<Camera> complete_camera(const FoundCamera& found, ImageScale image_scale);
 
-// Horizontal field of view in degrees, of a lens focused at infinity: of focal length and sensor if both are
+// Horizontal field of view in degrees with focus at infinity: from focal length and sensor if both are
 // known, otherwise the file's.
 PETZVAL_API std::optional<FoundNumber> field_of_view_deg(const FoundCamera& found);
 
@@ -154,11 +154,11 @@ PETZVAL_API Result<Rendered> rendered(const Shot& shot);
 struct PixelPosition {
     int x = 0, y = 0;
 };
-// Sets the focus distance to the depth that the pixel shows. Errors: InvalidArgument for a pixel that the
-// data window does not have, for a shot without depth in metres.
+// Sets the focus distance to the depth that the pixel shows. Errors: InvalidArgument for a pixel outside of
+// the data window or a shot without depth in metres.
 PETZVAL_API Status focus_on_pixel(Shot& shot, PixelPosition pixel);
-// The median depth of the pixels at most `within_px` columns and rows away that show something; empty where
-// none does. Errors: those of focus_on_pixel().
+// The median depth of non-empty pixels at most `within_px` columns and rows away; empty if there are none.
+// Errors: those of focus_on_pixel().
 PETZVAL_API Result<std::optional<double>> distance_around_m(const Shot& shot, PixelPosition pixel,
                                                             int within_px);
 
@@ -166,16 +166,16 @@ PETZVAL_API Result<std::optional<double>> distance_around_m(const Shot& shot, Pi
 struct WorldPoint {
     double x = 0, y = 0, z = 0;
 };
-// The same by a point of the world and the file's worldToCamera. A point behind OpenEXR's camera is taken as
-// one in front of a camera that looks along -z, with a warning in shot.warnings. Errors: InvalidArgument
-// without a matrix, or for a point in the plane of the lens.
+// The same by a point of the world and the file's worldToCamera. If the point lies behind OpenEXR's camera,
+// the camera is assumed to look along -z, with a warning in shot.warnings. Errors: InvalidArgument without
+// a matrix, or for a point in the plane of the lens.
 PETZVAL_API Status focus_on_point(Shot& shot, WorldPoint point);
 
 // Position of the camera in the world: the point that becomes the origin if the matrix holds only rotations.
 PETZVAL_API std::optional<WorldPoint> position_of(const FoundCamera& found);
 
-// Sets the focus to the middle, in dioptres, of the range that is held sharp, where there is such a range and
-// nothing says the focus. Errors: InvalidArgument for a focus outside of the range.
+// If a range is kept sharp and no focus is given, sets the focus to the middle of the range in dioptres.
+// Errors: InvalidArgument for a focus outside of the range.
 PETZVAL_API Status focus_within_range(Shot& shot, const CocControls& coc);
 
 // Reach of this look's light beyond the picture, in pixels: the largest radius of non-empty pixels, plus the
@@ -189,14 +189,14 @@ PETZVAL_API Result<Rect> window_of_light(const Shot& shot, const Look& look, dou
 // Adds that many pixels on each side where the data window ends inside the display window; on other sides the
 // scene continues beyond the frame, unknown.
 PETZVAL_API Rect with_empty_sides(const Place& place, int by_px);
-// Adds emptiness around the picture. Requires: `wider` holds its data window. Returns whether it is larger.
-// Errors: InvalidArgument for more pixels than any picture may have.
+// Adds empty pixels around the picture. Requires: `wider` contains its data window. Returns true if it is
+// larger. Errors: InvalidArgument for more pixels than any picture may have.
 PETZVAL_API Result<bool> grow_to(Shot& shot, const Rect& wider);
 // grow_to(with_empty_sides()).
 PETZVAL_API Result<bool> grow_empty_sides(Shot& shot, int by_px);
 
-// A line of the attribute petzval:history that says how this look blurs the shot; the same wherever and
-// whenever that is done.
+// The line of the attribute petzval:history that describes this look's blur of the shot; it does not depend
+// on time and place.
 PETZVAL_API std::string history_line(const Shot& shot, const Look& look);
 // True if the history of the file has such a line about this colour.
 PETZVAL_API bool was_blurred(const Shot& shot);
@@ -204,9 +204,9 @@ PETZVAL_API bool was_blurred(const Shot& shot);
 // The frame for write_exr(): shot.colour in its place with all other data of the input, metres as its depth.
 PETZVAL_API Frame to_frame(Shot shot);
 
-// Lights in a CSV file. The first line that is not empty names the columns, in any order: x, y (pixels of the
-// display window, centres at +0.5), depth (metres, planar) or coc (signed radius, px), r, g, b
-// (scene-linear), and if wanted size (diameter, px); vx and vy are read over. '#' begins a comment; values
+// Lights in a CSV file. The first line that is not empty names the columns, in any order: x, y (pixels of
+// the display window, centres at +0.5), depth (metres, planar) or coc (signed radius, px), r, g, b
+// (scene-linear), and if wanted size (diameter, px); vx and vy are ignored. '#' begins a comment; values
 // may be inf or nan.
 struct Lights {
     std::vector<LightPoint> points;  // in pixels of the data window
@@ -215,7 +215,7 @@ struct Lights {
 // Errors: InvalidFile with the path and the line (missing, no header, a column missing, twice or unknown, a
 // value missing, too many, or not a number).
 PETZVAL_API Result<Lights> read_lights(const std::string& path, const Rect& data_window);
-// Lights by depth as the text of such a file: read_lights() reads the same floats again. `comment`: lines
+// The text of such a file for lights with depth; read_lights() reads back the same floats. `comment`: lines
 // without '#'.
 PETZVAL_API std::string lights_text(const std::vector<LightPoint>& points,
                                     const std::vector<std::string>& comment);

@@ -1,5 +1,5 @@
-// A run over the frames of a shot: frames and patterns, missing inputs, outputs that exist, tracks,
-// neighbouring frames, retries, records. The command line, the window and render farms call it. Component
+// A run over the frames of a shot: frames and patterns, missing inputs, existing outputs, tracks,
+// neighbouring frames, retries, records. The command line, the window and render farms use it. Component
 // petzval::files.
 //
 //     auto settings = petzval::shot_run_from_json(R"({"input": "beauty.####.exr", "output": "out.####.exr",
@@ -54,14 +54,14 @@ enum class ShotView {
     Hidden,
     Guessed
 };
-// Each with its name, in the order in which people should read them.
+// Each view with its name, in reading order.
 PETZVAL_API const std::vector<std::pair<std::string, ShotView>>& shot_views();
 PETZVAL_API const char* name_of(ShotView view);
-// An engine makes it; its PNG is developed (exposure, tone).
+// True if an engine makes the view; its PNG is developed (exposure, tone).
 PETZVAL_API bool is_rendered(ShotView view);
 PETZVAL_API bool is_developed(ShotView view);
-// The view that an engine is asked for. For views of other engines, gaussian_view() returns nothing and
-// scatter_view() returns Result.
+// The engine's own view. For views of other engines, gaussian_view() returns nothing and scatter_view()
+// returns Result.
 PETZVAL_API std::optional<GaussianView> gaussian_view(ShotView view);
 PETZVAL_API ScatterView scatter_view(ShotView view);
 
@@ -71,7 +71,7 @@ constexpr int kOverscanAutomatic = 0, kOverscanWithinFrame = -1, kOverscanOff = 
 // source.read.view_name of every view of a stereo file.
 inline constexpr const char* kAllViews = "all";
 
-// All that a run is asked for. Paths of the source and of the outputs may hold a frame number (frames.h);
+// All settings of a run. Paths of the source and of the outputs may contain a frame number (frames.h);
 // without one, and without frames, the run makes a single picture.
 struct ShotRunSettings {
     ShotSource source;  // with the camera of the user; source.read.threads and max_memory_bytes hold for all
@@ -85,15 +85,15 @@ struct ShotRunSettings {
     // as in the whole frame. For ShotView::Beauty of one view.
     std::optional<Rect> region = {};
     DisplayChoice display = {};             // of PNG outputs
-    std::optional<Transfer> transfer = {};  // of codes, read and written, as the user said it
+    std::optional<Transfer> transfer = {};  // of display codes, read and written; the user's choice
     // Names of the display view and space that ShotRunHost::to_display shows; ExistingOutputs::Update
     // compares them. Empty: `display` is used.
     std::string display_view = {}, display_space = {};
 
     std::string output;          // .exr or .png
-    std::string record_file;     // JSON of each frame in a file of its own; empty: none
+    std::string record_file;     // JSON of each frame in a separate file; empty: none
     std::string report_file;     // one line of JSON a frame; empty: none
-    std::string save_look_file;  // the look, once a picture is written; empty: not kept
+    std::string save_look_file;  // written after the first picture; empty: none
     ExistingOutputs existing = ExistingOutputs::Replace;
 
     std::vector<int> frames = {};  // empty: those that are there
@@ -103,16 +103,16 @@ struct ShotRunSettings {
     std::optional<double> focus_speed = {};
     int temporal = 0;  // neighbouring frames on each side
     MotionReading motion = {};
-    int retries = 0;  // of a frame that failed for another reason than its input
+    int retries = 0;  // of a frame that failed for a reason other than its input
 
     // For records: the folder where the session stores kernels, and the engine's own options as JSON.
     std::string kernel_cache_folder = {}, engine_options = "{}";
-    // Said beside the warnings of each frame, as what a look's file holds to no effect.
+    // Added to the warnings of each frame, such as fields of a look without effect.
     std::vector<std::string> warnings = {};
 };
 
-// Refuses files and choices that the view or the engine has no use for, by their fields. Runs call it
-// themselves. Errors: InvalidArgument.
+// Refuses files and choices that the view or the engine does not use, with their field. Runs call this
+// function themselves. Errors: InvalidArgument.
 PETZVAL_API Status check(const ShotRunSettings& settings);
 
 // Settings as JSON: {"input", "output", "frames": "1001-1100", "look": {…}, "camera": {"f_number", …},
@@ -125,38 +125,38 @@ PETZVAL_API Result<ShotRunSettings> shot_run_from_json(const std::string& text);
 
 struct ShotRunHost : FrameLoopHost {
     std::function<bool(double)> frame_progress = {};  // within a frame; false cancels
-    // Converts scene-linear light by a colour manager instead of the tone curve. `light` becomes what the
-    // display wants, `settings` what remains to be applied, `used` a line that names the conversion.
+    // Converts scene-linear light by a colour manager instead of the tone curve. `light` becomes display
+    // values, `settings` the remaining steps, and `used` a line that names the conversion.
     std::function<Status(Picture& light, DevelopSettings& settings, std::string& used,
                          std::vector<std::string>& warnings)>
         to_display = {};
-    // An example of how to give camera numbers. The run appends it to the error about missing ones.
+    // Returns an example with camera numbers, which the run appends to the error about missing ones.
     std::function<std::string(const FoundCamera&)> camera_example = {};
 };
 
-// One picture: paths of the settings hold no frame number, track, rack and frames are not looked at. Errors:
-// those of reading, of settings that do not fit each other, OutputFailed, Cancelled.
+// Makes one picture: paths of the settings have no frame number, and track, rack and frames are ignored.
+// Errors: those of reading, of settings that do not fit each other, OutputFailed, Cancelled.
 PETZVAL_API Result<FrameRecord> make_picture(Session& session, const ShotRunSettings& settings,
                                              const ShotRunHost& host = {});
 
 class PETZVAL_API ShotRun {
 public:
-    // The session outlives the run and holds what one frame leaves to the next.
+    // The session must outlive the run; it keeps data from frame to frame.
     ShotRun(Session& session, ShotRunSettings settings, ShotRunHost host = {});
     ~ShotRun();
     ShotRun(const ShotRun&) = delete;
     ShotRun& operator=(const ShotRun&) = delete;
 
-    // Frames, files that are missing, outputs that would replace an input, the track, what neighbours need:
-    // all that can be refused before the work. `files` knows more files of this process; may be null. run()
-    // calls it where it was not called. Errors: InvalidArgument, InvalidFile.
+    // Checks everything that can be refused before the work: frames, missing files, outputs that would
+    // replace an input, the track, the needs of neighbours. `files` has more files of this process; may be
+    // null. run() calls plan() if it was not called. Errors: InvalidArgument, InvalidFile.
     Status plan(RunFiles* files = nullptr);
-    // Those that are made; after plan().
+    // The frames of the run; call plan() first.
     const std::vector<int>& frames() const;
-    // One frame, outside of the loop: no retry, no callback.
+    // Makes one frame outside of the loop, without retry and callbacks.
     Result<FrameRecord> make(int frame);
-    // All of them; frames that fail do not keep the others from being made. Errors: those of plan(),
-    // Cancelled, OutputFailed for the report.
+    // Makes all frames; a failed frame does not stop the run. Errors: those of plan(), Cancelled,
+    // OutputFailed for the report.
     Status run();
     // Frames that failed.
     const std::vector<int>& failed() const;
@@ -167,18 +167,18 @@ private:
     std::unique_ptr<State> state_;
 };
 
-// The cost of one frame of a run, for those who divide a shot among processes.
+// The cost of one frame of a run, used to divide a shot among processes.
 struct FrameCost {
     int frame = 0;
     double seconds = 0;
     std::size_t peak_memory_bytes = 0;  // of the process
 };
-// Renders a frame into a file of its own in `folder`, which is removed, and writes nothing else of the run.
-// Errors: those of ShotRun::make().
+// Makes a frame in a temporary file in `folder`, removes the file, and writes nothing else. Errors: those
+// of ShotRun::make().
 PETZVAL_API Result<FrameCost> measure_frame(Session& session, ShotRunSettings settings, int frame,
                                             const std::string& folder, const ShotRunHost& host = {});
 
-// The memory that the system leaves to this process: by a memory cgroup (containers, farms), or ulimit -v.
+// The memory available to this process under a memory cgroup (containers, farms) or ulimit -v.
 struct MemoryLimit {
     std::size_t bytes = 0;  // left for work; 0: no limit, or none below the machine's memory
     std::string name;       // for messages
@@ -186,11 +186,11 @@ struct MemoryLimit {
     // The value of that setting for work of so many bytes.
     std::function<std::size_t(std::size_t)> for_bytes;
 
-    // The end of a message that says how much work takes, as "… at least 234M …": the value that is enough.
-    // Empty if the message says nothing of that.
+    // For a message about too little memory ("… at least 234M …"), text that names a sufficient value.
+    // Empty if the message names no amount.
     PETZVAL_API std::string enough(const std::string& message) const;
 };
-// threads: those that will work, each of which needs a stack; 0: all.
+// threads: number of working threads, each of which needs a stack; 0: all.
 PETZVAL_API MemoryLimit memory_limit(int threads = 0);
 
 }  // namespace petzval

@@ -18,15 +18,15 @@ namespace petzval {
 // Values of a track for one frame; unset values are the file's or the user's.
 struct TrackedFrame {
     CameraChoice camera;
-    std::optional<PixelPosition> focus_pixel;  // whose depth in this frame is focused
+    std::optional<PixelPosition> focus_pixel;  // the focus is at its depth in this frame
     std::optional<WorldPoint> focus_point;
     std::map<std::string, std::string> look;  // fields by path, values as look_with() takes them
-    bool is_between_keys = false;             // of the focus: it moves as its keys ask for
+    bool is_between_keys = false;             // true if the focus moves between its keys
 };
 
-// Keys of a look and of focus at some frames, and the interpolation between them. Distances are interpolated
-// linearly in dioptres, f-numbers in stops, other numbers linearly; any other value holds until its next key.
-// Before the first key and after the last one, that key's values hold.
+// Keys of a look and of focus at some frames, and the interpolation between them. Distances are
+// interpolated linearly in dioptres, f-numbers in stops, other numbers linearly; any other value stays
+// until its next key. Before the first key and after the last one, the values of that key apply.
 //
 // In a CSV file, the first line that is not empty names the columns, '#' begins a comment, and an empty value
 // sets no key. A JSON file has the same names: {"frames": [{"frame": 1001, "focus": 3.2}, …]}. The names are
@@ -51,16 +51,16 @@ public:
     // Adds the values of another track. Errors: InvalidArgument if both change the same value.
     Status add(Track other);
 
-    // The pixels whose depth has to be known to make these frames, by the frame in which it is measured.
+    // The pixels whose depth is needed for these frames, by the frame in which it is measured.
     std::map<int, PixelPosition> measured_at(std::span<const int> frames) const;
-    // Their depths, in metres. Until then such pixels are followed.
+    // Sets their depths in metres. Until then such pixels are followed.
     void set_focus(const std::map<int, double>& distances_m);
 
     TrackedFrame at(int frame) const;
     // The focus moves slowly near its keys and faster between them.
     void ease_focus();
-    // Focus distances alone: from frame to frame the focus moves by no more than this from where it was, in
-    // dioptres, and comes late where its keys ask for more. Requires: > 0.
+    // Limits the focus change from frame to frame, in dioptres; the focus arrives late if its keys are
+    // faster. Only for tracks of focus distances. Requires: > 0.
     void limit_focus_speed(double dioptres_per_frame);
     // Frames of the first key and of the last.
     int first() const { return first_; }
@@ -70,7 +70,7 @@ private:
     struct Column {
         std::string name;
         std::map<int, std::string> keys;  // as written
-        std::map<int, double> numbers;    // on the scale on which they are mixed; empty: no numbers
+        std::map<int, double> numbers;    // on the scale of the interpolation; empty: no numbers
     };
     static std::optional<double> number_at(const Column& column, int frame);
     const Column* find(const std::string& name) const;
@@ -84,11 +84,11 @@ private:
     friend class TrackReader;
 };
 
-// The source of one frame: no path has a place for a number any more.
+// The source of one frame, with the number filled into every path.
 PETZVAL_API ShotSource at_frame(ShotSource source, int frame);
 
-// Measures what Track::measured_at() asks for, each pixel in its own frame of the shot; paths of the source
-// may hold a frame number. Errors: those of read_shot() and focus_on_pixel(), with the frame and the pixel.
+// Measures the pixels of Track::measured_at(), each in its own frame of the shot; paths of the source may
+// contain a frame number. Errors: those of read_shot() and focus_on_pixel(), with the frame and the pixel.
 PETZVAL_API Status measure_focus(Track& track, std::span<const int> frames, const ShotSource& source,
                                  const Control& control = {});
 

@@ -9,7 +9,7 @@
 
 namespace petzval {
 
-// A borrowed function: whatever it was made of must outlive it. As cheap as a pointer.
+// A borrowed function, as cheap as a pointer. The function it refers to must outlive it.
 template <typename Signature>
 class FunctionRef;
 
@@ -49,14 +49,14 @@ public:
     // constant for the object's lifetime.
     virtual int width() const = 0;
     // Calls body(i) once for each i in 0…count-1, on any threads, in any order, and returns when all have
-    // returned. Bodies throw nothing, need no other body to be under way, and never call run(). Several
-    // threads may call run() at once where several jobs share the workers.
+    // returned. Bodies throw nothing, do not wait for other bodies, and never call run(). Several threads
+    // may call run() at once if several jobs share the workers.
     virtual void run(int count, FunctionRef<void(int)> body) = 0;
 };
 
-// Threads of our own, the calling one counted: 0 for all that this process may use. More than there are CPUs
-// are of use to tests alone. They are started when first needed and end with the object (oneTBB's, where the
-// library is built with it, stay for the process).
+// Our own threads, including the calling one; 0: all that this process may use. More threads than CPUs are
+// useful in tests only. They are started when first needed and end with the object (if the library is built
+// with oneTBB, its threads stay until the process ends).
 PETZVAL_API std::shared_ptr<Workers> own_workers(int threads = 0);
 
 }  // namespace petzval

@@ -1,4 +1,4 @@
-// A shot as a job for a render farm: one table of facts, and a writer for each farm system. Every system runs
+// Jobs for render farms: a description of the shot, and a writer for each farm system. Every system runs
 // the same script, run.sh, with a list of frames. Component petzval::files.
 #pragma once
 
@@ -18,9 +18,9 @@ enum class FarmSystem { List, Slurm, Flamenco, OpenJd, OpenCue };
 PETZVAL_API const std::vector<std::pair<std::string, FarmSystem>>& farm_systems();
 
 struct FarmShot {
-    std::string name;                  // letters, digits, _ and -; at least 3 characters
-    std::string folder;                // absolute: job files and records, on a disk that all machines see
-    std::string working_folder;        // absolute: paths of `command` start here
+    std::string name;            // letters, digits, _ and -; at least 3 characters
+    std::string folder;          // absolute: job files and records, on a disk that all machines can access
+    std::string working_folder;  // absolute: paths of `command` start here
     std::vector<std::string> command;  // program and arguments, without frames, report and threads
     std::vector<int> frames;           // ascending
     int chunk = 1;                     // frames that one process makes
@@ -39,8 +39,8 @@ struct FarmFile {
 
 // A shot without command and frames: the folder made absolute, the job's name, the current folder.
 PETZVAL_API FarmShot farm_shot_in(const std::string& folder);
-// Sets what the cost of one frame says: the seconds, the frames that one process makes, and, where
-// memory_bytes is 0, the memory: a quarter more than the peak, as frames differ, and at least 256 MiB.
+// Sets the fields that follow from the cost of one frame: seconds, frames per process, and, if memory_bytes
+// is 0, the memory: a quarter more than the peak, because frames differ, and at least 256 MiB.
 PETZVAL_API void set_cost(FarmShot& shot, double seconds_per_frame, std::size_t peak_memory_bytes);
 
 // A name for the job in this folder that all systems accept, made of the folder's name.

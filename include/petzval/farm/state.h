@@ -1,5 +1,5 @@
-// The job that petzval farm write made is read again: its facts, and the state of each frame by its output
-// and its records. Component petzval::files.
+// Reads a job of petzval farm write: its description, and the state of each frame by its output and its
+// records. Component petzval::files.
 #pragma once
 
 #include "petzval/export.h"
@@ -31,7 +31,7 @@ struct FarmFrame {
     std::string record = {};  // one line of JSON; empty: none
 };
 
-// Exists: an output that exists is complete. ReadWhole: each output is read to its end.
+// Exists: an existing output counts as complete. ReadWhole: each output is read to its end.
 enum class FarmCheck { Exists, ReadWhole };
 // All frames of the shot, ascending. A line of a record that a killed process left unfinished is skipped.
 PETZVAL_API std::vector<FarmFrame> farm_frames(const FarmShot& shot, FarmCheck check);
@@ -52,7 +52,7 @@ PETZVAL_API FarmSummary farm_summary(const std::vector<FarmFrame>& frames);
 // A JSON array with the state of each frame, infinity as record_of_number() writes it.
 PETZVAL_API std::string record_of_frames(const std::vector<FarmFrame>& frames);
 // Writes all records, in the order of frames, to FOLDER/report.jsonl, and the commands for `to_try` to
-// FOLDER/left, which is removed where none are left. Errors: OutputFailed.
+// FOLDER/left, which is removed if there are none. Errors: OutputFailed.
 PETZVAL_API Status merge_farm_records(const FarmShot& shot, const std::vector<FarmFrame>& frames);
 
 // Submits FOLDER/petzval.sbatch to Slurm by sbatch and remembers the job's id in FOLDER/slurm_jobs. Returns

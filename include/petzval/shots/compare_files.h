@@ -1,4 +1,4 @@
-// A picture file compared with a reference, as petzval compare does it. Component petzval::files.
+// Compares a picture file with a reference, like petzval compare. Component petzval::files.
 #pragma once
 
 #include "petzval/compare.h"
@@ -14,7 +14,7 @@
 namespace petzval {
 
 struct CompareFiles {
-    ShotSource reference;  // its layer and view hold for both; depth is not read
+    ShotSource reference;  // its layer and view apply to both; depth is not read
     std::string test;      // a picture whose display window has the same size
     std::string mask =
         {};  // a PNG's first channel as stored, or the luminance of another picture, of that size

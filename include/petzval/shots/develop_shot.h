@@ -1,5 +1,5 @@
-// Scene-linear pictures made into display pictures, as petzval develop does it: glare, exposure, tone curve,
-// one PNG a frame. Component petzval::files.
+// Converts scene-linear pictures to display pictures, like petzval develop: glare, exposure, tone curve,
+// one PNG per frame. Component petzval::files.
 #pragma once
 
 #include "petzval/display_files.h"

@@ -1,6 +1,6 @@
-// A scene rendered into files, as petzval scene make does it: the sharp picture with depth and camera
-// numbers, the truth, the hidden surfaces; also many frames of a scene that moves. Component
-// petzval::scene-files, which joins petzval::scenes and petzval::files.
+// Renders a scene into files, like petzval scene make: the sharp picture with depth and camera numbers, the
+// truth, the hidden surfaces; also many frames of a moving scene. Component petzval::scene-files, which
+// joins petzval::scenes and petzval::files.
 #pragma once
 
 #include "petzval/camera.h"
@@ -19,13 +19,13 @@
 namespace petzval {
 
 struct SceneFiles {
-    std::string scene = {};                      // as StandingScene::build() takes it
-    SceneSettings settings = {};                 // its camera, want_truth and want_layers are not looked at
-    CameraChoice camera = {};                    // over the scene's own numbers
-    std::optional<ImageScale> image_scale = {};  // empty: the scene's own
+    std::string scene = {};                            // as StandingScene::build() takes it
+    SceneSettings settings = {};                       // its camera, want_truth and want_layers are ignored
+    CameraChoice camera = {};                          // overrides the scene's own numbers
+    std::optional<ImageScale> image_scale = {};        // empty: the scene's own
     std::string output = {}, truth = {}, layers = {};  // .exr; empty: not written
     std::string record_file = {};                      // JSON of each frame; empty: none
-    // Keep: files that exist are neither rendered nor written. Update is not known here.
+    // Keep: existing files are neither rendered nor written. Update is not supported.
     ExistingOutputs existing = ExistingOutputs::Replace;
     std::size_t max_memory_bytes = 0;  // 0: no limit
 };
@@ -33,11 +33,11 @@ struct SceneFiles {
 // The names that are not empty, in the order of the struct.
 PETZVAL_API std::vector<std::string> outputs_of(const SceneFiles& files);
 
-// A scene's camera as one that was found; `origin`: such as "scene night".
+// A scene's camera in the form of a file's camera; `origin`: such as "scene night".
 PETZVAL_API FoundCamera found_camera(const Camera& camera, const std::string& origin);
 
-// One frame: paths hold no frame number. The record is that of `petzval scene make --json`; of a frame that
-// is kept it is empty. Of `host`, only `say`, `cancelled` and `in_words` are called. Errors: those of
+// One frame: paths hold no frame number. The record is that of `petzval scene make --json`; it is empty for
+// a frame that is kept. Of `host`, only `say`, `cancelled` and `in_words` are called. Errors: those of
 // render_scene(); OutOfMemory if the pictures do not fit max_memory_bytes; OutputFailed, Cancelled.
 PETZVAL_API Result<FrameRecord> make_scene_files(const SceneFiles& files, const FrameLoopHost& host = {});
 
@@ -52,7 +52,7 @@ struct PointsFile {
     std::string output = {};  // .csv
     ExistingOutputs existing = ExistingOutputs::Replace;
 };
-// The record is that of `petzval scene points --json`; of a file that is kept it is empty. Of `host`, only
+// The record is that of `petzval scene points --json`; it is empty for a file that is kept. Of `host`, only
 // `say` is called. Errors: those of make_points(); OutputFailed.
 PETZVAL_API Result<FrameRecord> make_points_file(const PointsFile& file, const FrameLoopHost& host = {});
 

@@ -1,5 +1,5 @@
-// The frames of a shot to be looked at: beside each other on a contact sheet, or one after the other in a
-// video. Component petzval::files.
+// Shows the frames of a shot side by side on a contact sheet, or one after the other in a video. Component
+// petzval::files.
 #pragma once
 
 #include "petzval/display_files.h"
