@@ -115,12 +115,12 @@ Status compare_frames(const CompareFlags& flags) {
 }  // namespace
 
 void add_compare(Verb& program, Action& chosen) {
-    Verb& verb = add_verb(program, "compare",
-                          "how far a picture is from a reference: PSNR, SSIM, largest error, energy",
-                          "petzval compare truth.exr out.exr\n"
-                          "petzval compare truth.exr out.exr --exposure 0.8 --json - | jq .psnr_lin\n"
-                          "petzval compare truth.exr out.exr -o difference.png\n"
-                          "petzval compare truth.####.exr out.####.exr --frames 1001-1100");
+    Verb& verb =
+        add_verb(program, "compare", "compare a picture with a reference: PSNR, SSIM, largest error, energy",
+                 "petzval compare truth.exr out.exr\n"
+                 "petzval compare truth.exr out.exr --exposure 0.8 --json - | jq .psnr_lin\n"
+                 "petzval compare truth.exr out.exr -o difference.png\n"
+                 "petzval compare truth.####.exr out.####.exr --frames 1001-1100");
     auto flags = std::make_shared<CompareFlags>();
     FlagGroup(verb, "Input")
         .argument("REF", "the reference: EXR or PNG", flags->reference.path)

@@ -89,7 +89,7 @@ void check(DevelopVerbFlags& flags, const Verb& verb) {
 void add_develop(Verb& program, Action& chosen) {
     Verb& verb =
         add_verb(program, "develop",
-                 "scene-linear light to a display picture: glare, exposure, tone curve, sRGB, dither",
+                 "convert scene-linear light to a display picture: glare, exposure, tone curve, sRGB, dither",
                  "petzval develop out.exr -o out.png\n"
                  "petzval develop out.exr -o out.png --exposure 1.5 --bits 16\n"
                  "petzval develop out.exr -o out.png --bloom 0.1 --star 0.1 --blades 6\n"

@@ -33,7 +33,8 @@ Status list_devices(const RunFlags& run) {
 }  // namespace
 
 void add_devices(Verb& program, Action& chosen) {
-    Verb& verb = add_verb(program, "devices", "the devices that defocus can draw with", "petzval devices");
+    Verb& verb =
+        add_verb(program, "devices", "list the devices that defocus can draw with", "petzval devices");
     const auto run = std::make_shared<RunFlags>();
     run->add_json_to(verb);
     run->add_log_to(verb, false);

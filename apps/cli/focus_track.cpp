@@ -72,7 +72,7 @@ Status track_focus(const FocusTrackFlags& flags) {
 
 void add_focus_track(Verb& program, Action& chosen) {
     Verb& verb = add_verb(program, "focus-track",
-                          "the focus distance of every frame of a shot, from pixels to keep in focus",
+                          "measure the focus distance in every frame of a shot, at pixels to keep in focus",
                           "petzval focus-track beauty.####.exr -o focus.csv --at 1001:960,540 1040:1100,500\n"
                           "petzval defocus beauty.####.exr -o out.####.exr --track focus.csv");
     auto flags = std::make_shared<FocusTrackFlags>();

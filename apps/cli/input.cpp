@@ -13,7 +13,7 @@ namespace petzval::cli {
 void InputFlags::add_to(Verb& verb) {
     FlagGroup(verb, "Input")
         .argument("IN",
-                  "a picture: EXR, PNG, JPEG or TIFF (whole numbers are decoded through the sRGB curve); - "
+                  "a picture: EXR, PNG, JPEG or TIFF (integer pictures are decoded with the sRGB curve); - "
                   "is standard input",
                   path)
         .value("--layer", "NAME", "colour layer or part", parse_text, read.layer)
@@ -29,17 +29,16 @@ void InputFlags::add_depth_to(Verb& verb) {
                read.depth_channel)
         .choice<DepthKind>(
             "--depth-kind",
-            "meaning of the depth: planar, distance along the axis (default, except for whole numbers); ray, "
+            "meaning of the depth: planar, distance along the axis (default, except for integer files); ray, "
             "distance from the pinhole; inverse, 1/planar, or with --depth-range disparity from 0 (far) to 1 "
             "(near); normalized, device, mist: 0 to 1, z-buffer or Blender's mist between --depth-range; "
             "mist-linear, mist-inverse: mist of falloff Linear or Inverse Quadratic; coc-px, signed blur "
             "radius in pixels",
             depth_kind)
-        .value(
-            "--depth-range", "NEAR,FAR",
-            "range of normalized, device, inverse or mist depth in scene units, such as 0.1,100; of coc-px "
-            "the radii of 0 and 1, such as -20,35",
-            parse_range, depth_range)
+        .value("--depth-range", "NEAR,FAR",
+               "range of normalized, device, inverse or mist depth in scene units, such as 0.1,100; for "
+               "coc-px, the radii of the values 0 and 1, such as -20,35",
+               parse_range, depth_range)
         .value("--unit-scale", "METRES", "metres per unit of depth, such as 0.01, or 1cm", parse_length_m,
                unit_scale_m);
 }

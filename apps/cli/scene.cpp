@@ -48,7 +48,7 @@ void MakeFlags::add_to(Verb& verb) {
         .value("--height", "PX", "height of the picture (default 540)", parse_size_px, height)
         .value("--overscan", "PX",
                "render this many extra pixels on every side, for light that the blur spreads into the frame "
-               "(default 0); the truth covers the frame alone",
+               "(default 0); the truth covers only the frame",
                parse_index, scene.overscan_px)
         .value("--frame", "N", "frame of a moving scene (default 0)", parse_index, frame)
         .value("--frames", "LIST",
@@ -86,12 +86,13 @@ void MakeFlags::add_to(Verb& verb) {
     FlagGroup(verb, "Output")
         .writes("-o,--output", "FILE.exr", "sharp picture, planar Z in metres and camera numbers", output)
         .writes("--truth", "FILE.exr",
-                "also the ray-traced truth: the picture that this camera's lens records", truth)
+                "also write the ray-traced truth: the picture that this camera's lens records", truth)
         .writes("--layers", "FILE.exr", "also write the hidden surfaces, as a deep EXR for defocus --plate",
                 layers);
     FlagGroup(verb, "Output")
         .on("--motion",
-            "also motion vectors in the sharp picture, of a moving scene: forward.u, forward.v to the next "
+            "also write motion vectors of a moving scene into the sharp picture: forward.u, forward.v to the "
+            "next "
             "frame, backward.u, backward.v to the previous one, in pixels, y upwards",
             motion);
     run.add_json_to(verb);
@@ -205,8 +206,7 @@ Status list_scenes(const RunFlags& run) {
 }
 
 void add_list(Verb& scene, Action& chosen) {
-    Verb& verb =
-        add_verb(scene, "list", "the scenes and the cameras they are meant for", "petzval scene list");
+    Verb& verb = add_verb(scene, "list", "list the scenes and their cameras", "petzval scene list");
     auto run = std::make_shared<RunFlags>();
     run->add_json_to(verb);
     when_typed(verb, [run, &chosen] { chosen = [run] { return list_scenes(*run); }; });

@@ -41,7 +41,7 @@ void PointsFlags::add_to(Verb& verb) {
         .value("--horizon", "FRACTION",
                "height of the horizon, as a fraction of the picture from the top (default 0.5)", parse_number,
                horizon)
-        .value("--count", "N", "number of points (default: as suits the kind)", parse_count, count)
+        .value("--count", "N", "number of points (default: depends on the set)", parse_count, count)
         .value("--seed", "N", "seed of all random choices (default 1)", parse_seed, settings.seed);
     FlagGroup(verb, "Output").writes("-o,--output", "FILE.csv", "x, y, depth, r, g, b, size", output);
     overwrite.add_to(verb, false);
@@ -82,9 +82,10 @@ Status make_file(const PointsFlags& flags) {
 }  // namespace
 
 void add_scene_points(Verb& scene, Action& chosen) {
-    Verb& verb = add_verb(scene, "points", "a file of lights for --points: glitter on water, a city, drops",
-                          "petzval scene points city -o city.csv --focal-length 85mm\n"
-                          "petzval defocus dusk.exr -o out.exr --engine sprites --points city.csv");
+    Verb& verb =
+        add_verb(scene, "points", "write a file of lights for --points: glitter on water, a city, drops",
+                 "petzval scene points city -o city.csv --focal-length 85mm\n"
+                 "petzval defocus dusk.exr -o out.exr --engine sprites --points city.csv");
     auto flags = std::make_shared<PointsFlags>();
     flags->add_to(verb);
     when_typed(verb, [flags, &verb, &chosen] {

@@ -89,11 +89,12 @@ void check(SheetFlags& flags, const Verb& verb) {
 }  // namespace
 
 void add_sheet(Verb& program, Action& chosen) {
-    Verb& verb = add_verb(program, "sheet",
-                          "the frames of a shot, or one picture through several lenses, on a contact sheet",
-                          "petzval sheet out.####.exr -o sheet.png\n"
-                          "petzval sheet out.####.exr -o shot.mp4 --frames 1001-1100\n"
-                          "petzval sheet night.exr --lenses doublet,biotar,petzval-portrait -o lenses.png");
+    Verb& verb =
+        add_verb(program, "sheet",
+                 "show the frames of a shot, or one picture through several lenses, on a contact sheet",
+                 "petzval sheet out.####.exr -o sheet.png\n"
+                 "petzval sheet out.####.exr -o shot.mp4 --frames 1001-1100\n"
+                 "petzval sheet night.exr --lenses doublet,biotar,petzval-portrait -o lenses.png");
     auto flags = std::make_shared<SheetFlags>();
     flags->input.add_to(verb);
     flags->input.add_transfer_to(verb);
@@ -101,7 +102,7 @@ void add_sheet(Verb& program, Action& chosen) {
     FlagGroup(verb, "Output")
         .writes("-o,--output", "FILE",
                 "a contact sheet (.png), or a video by ffmpeg (.mp4, .mov, .mkv, .webm)", flags->output)
-        .value("--columns", "N", "frames per row (default: about as many as rows)", parse_count,
+        .value("--columns", "N", "frames per row (default: about as many as there are rows)", parse_count,
                flags->columns)
         .value(
             "--width", "PX",

@@ -270,7 +270,7 @@ void check_scene(ViewFlags& flags) {
 }  // namespace
 
 void add_view(Verb& program, Action& chosen) {
-    Verb& verb = add_verb(program, "view", "a window: find focus, aperture and lens with the mouse",
+    Verb& verb = add_verb(program, "view", "open a window to find focus, aperture and lens with the mouse",
                           "petzval view beauty.exr\n"
                           "petzval view beauty.exr --lens doublet --against truth.exr\n"
                           "petzval view --scene tori --engine gaussian");

@@ -120,7 +120,7 @@ void add_job_verb(Verb& farm, Action& chosen, const char* name, const char* purp
 
 void add_farm_jobs(Verb& farm, Action& chosen) {
     add_job_verb(farm, chosen, "submit", "submit a job to Slurm", "petzval farm submit job", submit);
-    add_job_verb(farm, chosen, "status", "frames of a job that are complete, failed or left",
+    add_job_verb(farm, chosen, "status", "count the frames of a job that are complete, failed or left",
                  "petzval farm status job", status);
     add_job_verb(farm, chosen, "collect", "verify all frames of a job and merge its records",
                  "petzval farm collect job\npetzval farm collect job --resubmit", collect);

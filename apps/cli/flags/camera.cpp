@@ -25,7 +25,7 @@ Result<double> parse_f_number_or_open(const std::string& text) {
 }  // namespace
 
 void CameraFlags::add_to(Verb& verb, const std::string& owner, bool may_be_open) {
-    const std::string heading = "Camera (numbers of the " + owner + " hold unless given here)";
+    const std::string heading = "Camera (default: the numbers of the " + owner + ")";
     FlagGroup group(verb, heading);
     group.value("--focal-length", "MM", "focal length, such as 85mm", parse_length_mm, focal_length_mm)
         .value("--sensor-width", "MM", "width of the sensor that the picture spans, such as 36mm",

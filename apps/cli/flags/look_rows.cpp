@@ -76,7 +76,7 @@ LookRow row(const char* heading, const char* flag, const char* field, Kind kind,
 std::vector<LookRow> rows_of_input_and_focus() {
     return {
         row("Input", "--expand-highlights", "plate.expand_highlights", nothing(),
-            "reconstruct clipped highlights of plates that end at 1 while blurring; sharp areas are "
+            "reconstruct the clipped highlights of a plate for the blur; sharp areas are "
             "unchanged"),
         row("Input", "--highlight-peak", "plate.peak", value("LIGHT", parse_positive),
             "scene brightness assumed for pixel value 1.0 (default 16, four stops above white)"),
@@ -129,7 +129,7 @@ std::vector<LookRow> rows_of_lenses() {
             "add spherical aberration to any lens, in waves (588 nm) at the rim; positive: bright rings in "
             "front of focus, soft discs behind; negative: the reverse"),
         row("Lens character", "--add-at-fstop", "lens.added_at_f_number", value("N", parse_f_number),
-            "f-number at which --add-spherical holds (default: the camera's); stopped down, it falls with "
+            "f-number to which --add-spherical refers (default: the camera's); stopped down, it falls with "
             "the fourth power"),
         row("Lens character", "--add-axial-colour", "lens.added_axial_colour_mm", value("MM", parse_number),
             "distance of the blue focus (486 nm) behind the red one (656 nm); negative as in simple lenses"),
@@ -151,7 +151,7 @@ std::vector<LookRow> rows_of_lenses() {
             "spectrum of the light (default daylight): a lamp's lines focus separately, so its discs have no "
             "rainbow"),
         row("Lens character", "--wavelengths", "lens.wavelengths", value("N", parse_count),
-            "number of spectral bands; as many as needed by default"),
+            "number of spectral bands (default: as many as needed)"),
         row("Lens character", "--wave", "lens.wave", nothing(),
             "diffraction: rings in discs of small sensors, spikes of blades; slow"),
     };
@@ -162,8 +162,8 @@ std::vector<LookRow> rows_of_pupils() {
         row("Pupil", "--iris-open", "lens.iris_open", value("N", parse_f_number),
             "f-number at which the iris is round; blades show as it closes"),
         row("Pupil", "--barrel", "lens.barrel", value("R,D", parse_barrel),
-            "barrel rim: radius and distance in front of the pupil, mm; cuts the outer side of discs behind "
-            "focus, a negative distance the inner side; separate several with ;"),
+            "barrel rim: radius and distance in front of the pupil, in mm; cuts the outer side of discs "
+            "behind focus, or the inner side if the distance is negative; separate several with ;"),
         row("Pupil", "--barn-doors", "lens.barn_doors", value("L,R,T,B", parse_barn_doors),
             "matte box doors, in pupil radii from each side"),
         row("Pupil", "--aperture-image", "lens.aperture_image", value("FILE", parse_text),

@@ -34,7 +34,7 @@ void add_help(Verb& program, Action& chosen) {
     FlagGroup(verb, "Output")
         .choice("--format", "text (default), Markdown, a manual page, or completions for bash, zsh and fish",
                 kForms, flags->form)
-        .writes("--save", "FILE", "where to; - is standard output (default)", flags->save_to);
+        .writes("--save", "FILE", "output file; - is standard output (default)", flags->save_to);
     when_typed(verb, [flags, &program, &chosen] {
         chosen = [flags, &program]() -> Status {
             return write_text(flags->save_to, flags->form.write(help_of(program)));

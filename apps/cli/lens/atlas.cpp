@@ -93,9 +93,10 @@ void check(AtlasFlags& flags, const Verb& verb) {
 }  // namespace
 
 void add_lens_atlas(Verb& lens, Action& chosen) {
-    Verb& verb = add_verb(lens, "atlas", "discs by place in the frame and radius, as one texture for shaders",
-                          "petzval lens atlas petzval-portrait -o portrait\n"
-                          "petzval lens atlas doublet --blades 5 --zones 1 -o doublet");
+    Verb& verb =
+        add_verb(lens, "atlas", "write discs by place in the frame and radius, as one texture for shaders",
+                 "petzval lens atlas petzval-portrait -o portrait\n"
+                 "petzval lens atlas doublet --blades 5 --zones 1 -o doublet");
     auto flags = std::make_shared<AtlasFlags>();
     flags->add_lens_to(verb);
     FlagGroup(verb, "Atlas")

@@ -19,8 +19,8 @@ void LensesOnPictureFlags::add_to(Verb& verb, InputFlags& input) {
 
 void LensesOnPictureFlags::check(const Verb& verb, InputFlags& input) {
     if (!is_on()) {
-        auto words = typed_words(
-            verb, {"Camera (numbers of the file hold unless given here)", "Focus", "Look", "Engine"}, {});
+        auto words =
+            typed_words(verb, {"Camera (default: the numbers of the file)", "Focus", "Look", "Engine"}, {});
         for (const auto& [given, flag] : {std::pair(!input.read.depth_file.empty(), "--depth"),
                                           {!input.read.depth_channel.empty(), "--depth-channel"},
                                           {input.depth_kind.has_value(), "--depth-kind"},

@@ -184,7 +184,7 @@ void refuse_on_axis(const PictureFlags& flags, const Interval& field) {
 }
 
 void add_psf(Verb& lens, Action& chosen) {
-    Verb& verb = add_verb(lens, "psf", "one kernel: what a point of light becomes",
+    Verb& verb = add_verb(lens, "psf", "write one kernel: the image of a point of light",
                           "petzval lens psf doublet --defocus 40 -o disc.exr\n"
                           "petzval lens psf petzval-portrait --defocus -60 --field 0.5,0.3 -o disc.png");
     auto flags = std::make_shared<PsfFlags>();
@@ -194,7 +194,7 @@ void add_psf(Verb& lens, Action& chosen) {
                parse_number, flags->coc_radius_px)
         .value("--field", "X,Y", "place in the picture, in half diagonals from the middle, x right, y up",
                parse_range, flags->field)
-        .value("--size", "PX", "side of the output, made odd; as large as the kernel by default",
+        .value("--size", "PX", "side of the output, made odd (default: as large as the kernel)",
                parse_size_px, flags->size_px);
     flags->add_output_to(verb, false);
     when_typed(verb, [flags, &verb, &chosen] {
@@ -208,10 +208,10 @@ void add_psf(Verb& lens, Action& chosen) {
 }
 
 void add_table(Verb& lens, Action& chosen) {
-    Verb& verb =
-        add_verb(lens, "table", "the bokeh texture: discs from in front of focus to behind, one per column",
-                 "petzval lens table doublet -o table.exr\n"
-                 "petzval lens table uncorrected --wavelengths 3 --defocus 40 -o table.png");
+    Verb& verb = add_verb(lens, "table",
+                          "write the bokeh texture: discs from in front of focus to behind, one per column",
+                          "petzval lens table doublet -o table.exr\n"
+                          "petzval lens table uncorrected --wavelengths 3 --defocus 40 -o table.png");
     auto flags = std::make_shared<TableFlags>();
     flags->add_lens_to(verb, {[](const LookRow& row) { return is_off_axis(row) || shapes_the_pupil(row); },
                               "has no effect in lens table, where a column is a round disc in the middle of "
@@ -236,9 +236,9 @@ void add_table(Verb& lens, Action& chosen) {
 }
 
 void add_volume(Verb& lens, Action& chosen) {
-    Verb& verb =
-        add_verb(lens, "volume", "whole discs as slices, for apertures that are not round: blades, dust",
-                 "petzval lens volume doublet --blades 5 --dust 0.4 -o volume.exr");
+    Verb& verb = add_verb(lens, "volume",
+                          "write complete discs as slices, for apertures that are not round: blades, dust",
+                          "petzval lens volume doublet --blades 5 --dust 0.4 -o volume.exr");
     auto flags = std::make_shared<VolumeFlags>();
     flags->add_lens_to(verb);
     FlagGroup(verb, "Volume")

@@ -101,7 +101,7 @@ void check(const LensReportFlags& flags, const Verb& verb) {
 
 void add_lens_report(Verb& lens, Action& chosen) {
     Verb& verb =
-        add_verb(lens, "report", "the sheet of a lens: one HTML page with all its pictures and numbers",
+        add_verb(lens, "report", "write the sheet of a lens: one HTML page with all its pictures and numbers",
                  "petzval lens report double-gauss\n"
                  "petzval lens report my_lens.zmx -o sheet.html\n"
                  "petzval lens report tessar takumar my_lens.zmx -o sheets\n"

@@ -182,10 +182,11 @@ Status show_lens(const std::string& name, const RunFlags& run) {
 }
 
 void add_lens_list(Verb& lens, Action& chosen) {
-    Verb& verb = add_verb(lens, "list", "lenses that --lens knows by name, all or those that match words",
-                          "petzval lens list\n"
-                          "petzval lens list helios\n"
-                          "petzval lens list double gauss --sort fstop");
+    Verb& verb =
+        add_verb(lens, "list", "list the lenses that --lens knows by name, or those that match words",
+                 "petzval lens list\n"
+                 "petzval lens list helios\n"
+                 "petzval lens list double gauss --sort fstop");
     auto flags = std::make_shared<ListFlags>();
     FlagGroup(verb, "Lenses")
         .arguments("WORDS", "only lenses whose names, title, kind, year or history contain every word",
@@ -198,7 +199,7 @@ void add_lens_list(Verb& lens, Action& chosen) {
 
 void add_lens_show(Verb& lens, Action& chosen) {
     Verb& verb =
-        add_verb(lens, "show", "the numbers of a lens: focal length, pupils, aberrations, its history",
+        add_verb(lens, "show", "show the numbers of a lens: focal length, pupils, aberrations, its history",
                  "petzval lens show tessar\n"
                  "petzval lens show my_lens.zmx --json - | jq .seidel");
     auto name = std::make_shared<std::string>();
