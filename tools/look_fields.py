@@ -22,8 +22,8 @@ infinity. `tools/look_fields.py` generates this page from the program.
 
 Paths in a look file are relative to that file. Camera numbers, threads and outputs are not part of
 a look. A look may start from a preset: `{"petzval_look": 1, "preset": "night"}`. `--look` also
-takes a link of the [lens lab](lens-lab.md#links), or the part after its `#`: the look then has that
-lens and its controls, and a pasted lens as text.
+accepts a link of the [lens lab](lens-lab.md#links), or the part after its `#`. The look then has
+the lens and controls of the link, and a pasted lens as text.
 """
 
 
