@@ -12,7 +12,7 @@ enum class Quality { Draft, Standard, Final };
 
 // Background that an engine estimates behind an edge if the picture does not show any.
 enum class Fill {
-    Full,  // the surroundings continue behind the edge, also lamps that it cuts
+    Full,  // the surroundings continue behind the edge, in scatter also lamps that it cuts
     Dim,   // the surroundings continue; of lamps only the visible part
     Off,   // none: known surfaces take all of the lens, and edges of near objects stay harder
 };

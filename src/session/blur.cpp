@@ -61,7 +61,7 @@ Status run_layers(const engine::Engine& chosen, const engine::EngineView& drawn,
             }
         engine::EngineView view = drawn;
         view.samples.colour = colour;
-        view.samples.picture = whole;
+        view.samples.picture = whole, view.samples.is_light = layer.is_light;
         Result<engine::Output> blurred = chosen.run(view, {});
         if (!blurred) return blurred.error();
         output.layers.push_back(taken(*blurred));

@@ -54,7 +54,7 @@ inline const std::vector<Tolerances>& tolerances() {
          .points_db = 16,
          .slant_db = 27,
          .radii_db = 30.5,
-         .corner_db = 36},
+         .corner_db = 35.5},
         {.engine = "sprites",  // gather, but for the lights
          .points_db = 40.5,
          .slant_db = 45,

@@ -43,14 +43,13 @@ double working_bytes_per_pixel(const EngineView& input) {
 Strips plan_strips(const EngineView& input, const RingSizes& sizes, const BrightPoints& found) {
     constexpr std::size_t kKernelBytes = std::size_t(12) << 20;
     const int cell = 1 << (sizes.levels() - 1);
-    const int unit = std::max({GatherPlan::kTile, cell, fill_block_px(input.samples.nearest_coc_px)});
+    const int unit = std::max(GatherPlan::kTile, cell);
     const auto whole_units = [unit](double rows) {
         return (int(std::min(rows, 1e6)) + unit - 1) / unit * unit;
     };
     const double largest = double(std::max(-input.samples.nearest_coc_px, input.samples.farthest_coc_px));
-    Strips strips{whole_units(input.height()),
-                  whole_units(1.05 * input.lens.level(0).reach_px(largest) +
-                              double(fill_reach_px(input.samples.nearest_coc_px)) + 4.0 * cell + 8)};
+    Strips strips{whole_units(input.height()), whole_units(1.05 * input.lens.level(0).reach_px(largest) +
+                                                           double(preview_reach_px(input)) + 4.0 * cell + 8)};
     const std::size_t row_bytes = std::size_t(working_bytes_per_pixel(input) * double(input.width())) +
                                   found.bytes_beside(1) - found.bytes_beside(0);
     const std::size_t held = held_bytes(input) + kKernelBytes + found.bytes_beside(0) +

@@ -19,10 +19,10 @@ CellLight& of_entry(std::vector<CellLight>& lights, std::size_t begin, int entry
 // A row of cells: first every column of pixels by itself, then the columns of each cell.
 class RowOfCells {
 public:
-    RowOfCells(const EngineView& input, const Guessed& guessed, const RingSizes& sizes,
+    RowOfCells(const EngineView& input, const FlatSurfaces& surfaces, const RingSizes& sizes,
                const CellAxis& across, const CellAxis& down)
         : input_(input),
-          guessed_(guessed),
+          surfaces_(surfaces),
           sizes_(sizes),
           across_(across),
           down_(down),
@@ -75,8 +75,11 @@ private:
                 const float size_px = std::abs(coc_px[x]);
                 is_lit[x] |= (unsigned char)((size_px > above_px) & (size_px < below_px));
             }
-            guessed_.rims.for_each_in_row(y, [&](int x, const Rim& rim) { note(x, rim.near_coc_px); });
-            guessed_.fill.for_each_in_row(y, [&](int x, const FilledIn& fill) { note(x, fill.coc_px); });
+            surfaces_.mixtures.for_each_in_row(
+                y, [&](int x, const Mixture& m) { note(x, m.near_coc_px), note(x, m.far_coc_px); });
+            surfaces_.hidden.ranges.for_each_in_row(y, [&](int x, const HiddenLayers::Range&) {
+                for (const Hidden& h : surfaces_.hidden.at(x, y)) note(x, h.coc_px);
+            });
         }
         std::fill(is_lit_.begin() + width, is_lit_.end(), is_lit_[std::size_t(width) - 1]);
     }
@@ -87,7 +90,7 @@ private:
         const bool outside_x = u != x, outside_y = v != y, outside = outside_x || outside_y;
         const bool open =
             (!outside_x || input_.window.open_edges.right) && (!outside_y || input_.window.open_edges.bottom);
-        for_each_sample(input_, guessed_, u, v, [&](Rgba colour, float coc_px, float covered, bool hidden) {
+        for_each_sample(input_, surfaces_, u, v, [&](Rgba colour, float coc_px, float covered, bool hidden) {
             if (!may_hold_.contains(coc_px)) return;
             sizes_.hand_out(coc_px, hidden, [&](int turn, float share) {
                 const int entry = sizes_.entry_at(turn, across_.level());
@@ -100,7 +103,7 @@ private:
     }
 
     const EngineView& input_;
-    const Guessed& guessed_;
+    const FlatSurfaces& surfaces_;
     const RingSizes& sizes_;
     const CellAxis &across_, &down_;
     RingSizes::Sizes may_hold_;
@@ -111,14 +114,14 @@ private:
 
 }  // namespace
 
-CellLevel::CellLevel(const EngineView& input, const Guessed& guessed, const RingSizes& sizes, int level)
+CellLevel::CellLevel(const EngineView& input, const FlatSurfaces& surfaces, const RingSizes& sizes, int level)
     : width_((input.width() + (1 << level) - 1) >> level),
       height_((input.height() + (1 << level) - 1) >> level),
       rows_(std::size_t(height_)) {
     const CellAxis across(level, width_), down(level, height_);
     parallel_for(height_, *input.services.workers, [&](int cy) {
         Row& row = rows_[std::size_t(cy)];
-        RowOfCells(input, guessed, sizes, across, down).make(cy, row.first, row.lights);
+        RowOfCells(input, surfaces, sizes, across, down).make(cy, row.first, row.lights);
     });
 }
 

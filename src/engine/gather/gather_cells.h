@@ -6,7 +6,7 @@
 #pragma once
 
 #include "engine/gather/gather_rings.h"
-#include "engine/samples/behind/guessed.h"
+#include "engine/samples/flat_surfaces.h"
 #include "engine/samples/seen_first.h"
 #include "engine/waist/engine.h"
 #include "laws/surfaces.h"
@@ -46,20 +46,10 @@ void for_each_deep_sample(const EngineView& input, int x, int y, Emit& emit) {
 
 // The samples that a gather takes from one pixel, as emit(colour, coc_px, covered, hidden).
 template <typename Emit>
-void for_each_sample(const EngineView& input, const Guessed& guessed, int x, int y, const Emit& emit) {
+void for_each_sample(const EngineView& input, const FlatSurfaces& surfaces, int x, int y, const Emit& emit) {
     SeenFirst take(emit);
-    if (input.samples.deep.empty()) {
-        const float coc = input.samples.coc_px(x, y);
-        if (const Rim* const rim = guessed.rims.at(x, y)) {
-            take(rim->near(input.samples.colour(x, y)), rim->near_coc_px, rim->share);
-            take(rim->far, coc, 1.0f);
-        } else {
-            emit(input.samples.colour(x, y), coc, 1.0f, false);
-        }
-        if (const FilledIn* const hidden = guessed.fill.at(x, y))
-            emit(hidden->colour, hidden->coc_px, 1.0f, is_hidden(coc, hidden->coc_px));
-        return;
-    }
+    if (input.samples.deep.empty())
+        return surfaces.visit(input.samples.colour, input.samples.coc_px, x, y, 1, take);
     if (input.samples.deep_dims_itself) return for_each_deep_sample(input, x, y, take);
     for (const CocSample& s : input.samples.deep.at(x, y))
         take(s.colour, s.coc_px, s.colour == Rgba{} ? 1.0f : s.colour.a);
@@ -68,7 +58,7 @@ void for_each_sample(const EngineView& input, const Guessed& guessed, int x, int
 class CellLevel {
 public:
     // Requires: level >= 1.
-    CellLevel(const EngineView& input, const Guessed& guessed, const RingSizes& sizes, int level);
+    CellLevel(const EngineView& input, const FlatSurfaces& surfaces, const RingSizes& sizes, int level);
     int width() const { return width_; }
     int height() const { return height_; }
     std::span<const CellLight> at(int x, int y) const {

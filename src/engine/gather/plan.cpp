@@ -103,11 +103,11 @@ GatherPlan plan_gather(const EngineView& strip, const Rect& rows, int first_row,
     parallel_for(int(tiles.size()), *strip.services.workers,
                  [&](int i) { largest[std::size_t(i)] = largest_px(strip, tiles[std::size_t(i)]); });
     if (strip.samples.deep.empty())
-        plan.guessed =
-            guess(strip, strip.options.fill != Fill::Off && strip.options.of<GatherOwn>().gather.fill_hidden);
+        plan.surfaces = preview_surfaces(
+            strip, strip.options.fill != Fill::Off && strip.options.of<GatherOwn>().gather.fill_hidden);
     for (int level = 0; level < sizes.levels(); ++level) {
         plan.reach.push_back(kernels.reach(level));
-        if (level > 0) plan.levels.emplace_back(strip, plan.guessed, sizes, level);
+        if (level > 0) plan.levels.emplace_back(strip, plan.surfaces, sizes, level);
     }
     for (const Rect& tile : tiles) {
         if (tile.intersected(rows).empty()) continue;

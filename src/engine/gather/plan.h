@@ -36,7 +36,7 @@ struct GatherPlan {
     int first_row = 0;    // row of the frame that is its row 0
     bool opaque = false;  // alpha is coverage: every pixel of the picture has alpha 1
     RingSizes sizes;
-    Guessed guessed;
+    FlatSurfaces surfaces;          // of a flat picture
     std::vector<CellLevel> levels;  // [0] is level 1
     std::vector<int> reach;         // cells by which any kernel of a level reaches
     std::vector<Tile> tiles;

@@ -16,7 +16,7 @@ namespace {
 // Bytes of the result, the layers, copies for the blur of one layer at a time, and the estimated background;
 // per worker a tile of each narrow blur.
 std::size_t working_bytes(const GaussianPlan& plan, const EngineView& input) {
-    constexpr std::size_t kOfCell = sizeof(Rgba) + sizeof(float), kTilePixels = 288 * 96;
+    constexpr std::size_t kOfCell = sizeof(Rgba) + sizeof(float), kTilePixels = std::size_t(288) * 96;
     const std::size_t pixels = std::size_t(input.width()) * std::size_t(input.height());
     std::size_t layers = 0, largest = 0, tiles = 1;
     for (const Blur& blur : plan.blurs) {
@@ -26,7 +26,7 @@ std::size_t working_bytes(const GaussianPlan& plan, const EngineView& input) {
         else
             layers += bytes, largest = std::max(largest, bytes);
     }
-    return pixels * (sizeof(Rgba) + layers + largest) + plan.guessed.bytes() +
+    return pixels * (sizeof(Rgba) + layers + largest) + plan.surfaces.bytes() +
            std::size_t(input.services.workers->width()) * tiles * kOfCell * kTilePixels;
 }
 

@@ -104,7 +104,7 @@ GaussianPlan plan_gaussian(const EngineView& input) {
     plan.view = options.view, plan.colour = input.samples.colour, plan.coc_px = input.samples.coc_px;
     if (options.style == GaussianStyle::Layered && options.view == GaussianView::Result) {
         plan_layers(input, band_px, plan);
-        plan.guessed = guess(input, input.options.fill != Fill::Off);
+        plan.surfaces = preview_surfaces(input, input.options.fill != Fill::Off);
         return plan;
     }
     const auto add = [&](float radius_px) {

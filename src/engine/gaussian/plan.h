@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/gaussian/gaussian_mix.h"
-#include "engine/samples/behind/guessed.h"
+#include "engine/samples/flat_surfaces.h"
 #include "engine/waist/engine.h"
 
 #include <algorithm>
@@ -57,7 +57,7 @@ struct GaussianPlan {
     GaussianView view = GaussianView::Result;
     View<const Rgba> colour;
     View<const float> coc_px;
-    Guessed guessed;  // Layered
+    FlatSurfaces surfaces;  // Layered
     // Layered: near ones from the widest, far ones from the narrowest. ByRadius: from the narrowest.
     std::vector<Blur> blurs;
     BlurStack near, far;  // ByRadius: far for either side
@@ -77,15 +77,15 @@ struct GaussianPlan {
     template <typename Emit>
     void for_each_sample(int x, int y, const Emit& emit) const {
         LayeredSample seen{LayeredSample::Seen, colour(x, y), 1, coc_px(x, y), mix(coc_px(x, y))};
-        if (const Rim* const rim = guessed.rims.at(x, y)) {
-            emit({LayeredSample::Rim, rim->near(seen.light), rim->share, rim->near_coc_px,
-                  mix(rim->near_coc_px)});
-            seen.light = rim->far;
+        if (const Mixture* const m = surfaces.mixtures.at(x, y); m && m->shows_far && m->near_share > 0) {
+            emit({LayeredSample::Rim, m->near_colour, m->near_share, m->near_coc_px, mix(m->near_coc_px)});
+            seen.light = m->far_colour;
         }
         emit(seen);
-        const FilledIn* const fill = guessed.fill.at(x, y);
-        if (!fill) return;
-        LayeredSample hidden{LayeredSample::Hidden, fill->colour, 1, fill->coc_px, mix(fill->coc_px)};
+        const Hidden* const behind = surfaces.most_hidden(x, y);
+        if (!behind) return;
+        LayeredSample hidden{LayeredSample::Hidden, behind->colour * (1 / behind->share), 1, behind->coc_px,
+                             mix(behind->coc_px)};
         if (hidden.coc_px < 0) {
             // Skipped: in the layer of its occluder it would be visible through it.
             if (hidden.mix.lower >= seen.mix.lower) return;

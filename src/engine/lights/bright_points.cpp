@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace petzval::engine {
 namespace {
@@ -96,10 +95,10 @@ BrightPoints::Rest BrightPoints::rest(int first_row, int last_row) const {
     const std::size_t begin = first_in(first_row), end = first_in(last_row);
     if (begin == end) return rest;
     rest.colour_ = without(input.samples.colour, begin, end, first_row);
-    input.samples.lit = std::exchange(input.samples.colour, rest.colour_);
+    input.samples.colour = rest.colour_;
     if (!input.samples.picture.empty()) {
         rest.picture_ = without(input.samples.picture, begin, end, first_row);
-        input.samples.lit_picture = std::exchange(input.samples.picture, rest.picture_);
+        input.samples.picture = rest.picture_;
     }
     if (!input.samples.deep.empty())
         input.samples.deep = rest.samples_ = samples_without(input.samples.deep, begin, end);

@@ -29,7 +29,7 @@ public:
     // Bytes of the points, and of a rest of that many rows.
     std::size_t bytes_beside(int rows) const;
 
-    // Rows of the frame without them. Their light is in Samples::lit.
+    // Rows of the frame without them.
     class Rest {
     public:
         const EngineView& input() const { return input_; }

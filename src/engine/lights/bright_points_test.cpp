@@ -51,7 +51,6 @@ TEST(BrightPoints, AndTheRestAreThePicture) {
         EXPECT_NEAR(sum.pixels()[i].b, expected.b, 1e-5f);
         EXPECT_EQ(sum.pixels()[i].a, expected.a);
     }
-    EXPECT_EQ(rest.input().samples.lit.row(0), scene.colour().row(0));
 }
 
 TEST(BrightPoints, ARestOfSomeRowsIsThatOfTheFrame) {

@@ -4,6 +4,7 @@
 #include "engine/samples/behind/out_of_sight.h"
 #include "engine/samples/behind/plate.h"
 #include "engine/samples/connectivity.h"
+#include "engine/samples/flat_surfaces.h"
 #include "engine/samples/hidden.h"
 #include "engine/samples/known_surfaces.h"
 #include "engine/samples/lamps.h"
@@ -97,21 +98,21 @@ public:
         const LitPicture picture{input.samples.colour, dim};
         // A draft searches half as much.
         const bool draft = input.options.quality == Quality::Draft;
-        const UnmixRule unmix = draft ? UnmixRule{2, false} : UnmixRule{};
-        FillRule fill = draft ? FillRule{1.5f, 4, 8, false, 6} : FillRule{};
+        const UnmixRule unmix = draft ? UnmixRule::draft() : UnmixRule{};
+        FillRule fill = draft ? FillRule::draft() : FillRule{};
         if (input.options.quality == Quality::Final) fill.first_directions = fill.directions;
-        mixtures_ =
+        surfaces_.mixtures =
             unmix_silhouettes(picture, input.samples.coc_px, connected, *input.services.workers, unmix);
         if (input.options.fill != Fill::Off)
-            hidden_ =
-                fill_hidden(picture, input.samples.coc_px, connected, mixtures_, input.samples.nearest_coc_px,
-                            input.samples.farthest_coc_px, fill, dim.white, *input.services.workers);
-        unmix_nearer(mixtures_, picture, hidden_, *input.services.workers);
+            surfaces_.hidden = fill_hidden(picture, input.samples.coc_px, connected, surfaces_.mixtures,
+                                           input.samples.nearest_coc_px, input.samples.farthest_coc_px, fill,
+                                           dim.white, *input.services.workers);
+        unmix_nearer(surfaces_.mixtures, picture, surfaces_.hidden, *input.services.workers);
         if (back)
-            unmix_before_plate(mixtures_, picture, input.samples.coc_px, input.samples.plate,
+            unmix_before_plate(surfaces_.mixtures, picture, input.samples.coc_px, input.samples.plate,
                                *input.services.workers);
         if (dim && !back && input.options.fill == Fill::Full)
-            lamps_ = lamps_behind(picture, input.samples.coc_px, mixtures_, *input.services.workers);
+            lamps_ = lamps_behind(picture, input.samples.coc_px, surfaces_.mixtures, *input.services.workers);
         count();
     }
 
@@ -164,26 +165,15 @@ private:
     }
     template <typename Emit>
     void visit_surfaces(int x, int y, const Emit& emit) const {
-        const Mixture* const m = mixtures_.at(x, y);
-        if (!m) {
-            // The plate shows through the uncovered part of the picture.
-            const Rgba c = input_.samples.colour(x, y);
-            emit(sample(c, input_.samples.coc_px(x, y), back_ ? c.a : 1));
-            for (const Hidden& h : hidden_.at(x, y)) emit(sample(h.colour, h.coc_px, h.share));
-            return;
-        }
-        if (m->near_share > kLeastShare || m->lights_near)
-            emit(sample(m->near_colour, m->near_coc_px, m->near_share));
-        const auto behind = hidden_.at(x, y);
-        if (m->shows_far || behind.empty()) emit(sample(m->far_colour, m->far_coc_px, 1));
-        for (const Hidden& h : behind) emit(sample(h.colour, h.coc_px, h.share));
-        if (m->far_light != Rgba{}) emit({m->far_light, m->lamp_coc_px, m->lamp_coc_px});
+        const View<const Rgba> colour = input_.samples.colour;
+        // The plate shows through the uncovered part of the picture.
+        surfaces_.visit(colour, input_.samples.coc_px, x, y, back_ ? colour(x, y).a : 1,
+                        [&](Rgba c, float coc_px, float share) { emit(sample(c, coc_px, share)); });
     }
 
     const EngineView& input_;
     const CocSamples* back_;
-    Mixtures mixtures_;
-    HiddenLayers hidden_;
+    FlatSurfaces surfaces_;
     HiddenLamps lamps_;
     // Number of the first sample of each row, then the number of all.
     std::vector<std::size_t> first_of_row_;

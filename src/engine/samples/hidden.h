@@ -69,6 +69,7 @@ struct UnmixRule {
     // Largest distance of clean colours that are used.
     int clean_within_px = int(completion_model.clean_within_px);
     bool along_outline = true;  // average the share of the shape along the outline
+    static UnmixRule draft() { return {2, false}; }
 };
 
 // Finds every pixel that touches a silhouette (also diagonally), and separates those that show the farther
@@ -103,6 +104,11 @@ struct HiddenLayers {
         if (!range) return {};
         return {bands[std::size_t(y / kBand)].data() + range->begin, range->count};
     }
+    std::span<Hidden> at(int x, int y) {
+        const Range* const range = ranges.at(x, y);
+        if (!range) return {};
+        return {bands[std::size_t(y / kBand)].data() + range->begin, range->count};
+    }
 };
 
 // Separates silhouette pixels that show the nearer surface, before the hidden surfaces behind them.
@@ -120,6 +126,9 @@ struct FillRule {
     bool textures = true;  // continue the texture of surfaces in focus
     // Edges of the picture continue straight on surfaces whose blur radius is at most this.
     float edges_to_px = std::numeric_limits<float>::infinity();
+    // Only surfaces at smaller signed radii are looked behind.
+    float hides_before_px = std::numeric_limits<float>::infinity();
+    static FillRule draft() { return {1.5f, 4, 8, false, 6}; }
 };
 
 // Continues what lies behind every surface inwards from its silhouettes, as far as any lens ray can reach

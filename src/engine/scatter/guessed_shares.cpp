@@ -1,7 +1,7 @@
 #include "engine/scatter/guessed_shares.h"
 
 #include "base/parallel.h"
-#include "engine/scatter/seen_share.h"
+#include "engine/samples/seen_share.h"
 
 namespace petzval::engine {
 

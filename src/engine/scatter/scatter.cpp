@@ -9,10 +9,11 @@
 #include "engine/samples/complete.h"
 #include "engine/samples/connectivity.h"
 #include "engine/samples/lamps.h"
+#include "engine/samples/layer_shares.h"
 #include "engine/samples/outlines/hidden_outlines.h"
 #include "engine/samples/silhouettes/count.h"
 #include "engine/scatter/guessed_shares.h"
-#include "engine/scatter/layer_light.h"
+#include "engine/scatter/layer_highlights.h"
 #include "engine/scatter/plan_reader.h"
 #include "engine/waist/stopwatch.h"
 

@@ -7,19 +7,11 @@ Samples Samples::rows(int y0, int y1) const {
     const Rect r{0, y0, colour.width(), y1};
     part.colour = colour.part(r), part.coc_px = coc_px.part(r);
     if (!picture.empty()) part.picture = picture.part(r);
-    if (!lit.empty()) part.lit = lit.part(r);
-    if (!lit_picture.empty()) part.lit_picture = lit_picture.part(r);
     if (!depth_m.empty()) part.depth_m = depth_m.part(r);
     if (!plate.empty()) part.plate = plate.part(r);
     for (SampleLayer& layer : part.layers) layer.colour = layer.colour.part(r);
     part.deep = deep.rows(y0, y1), part.holdout = holdout.rows(y0, y1);
     return part;
-}
-
-EngineView EngineView::with_all_light() const {
-    EngineView with = *this;
-    if (!samples.lit.empty()) with.samples.colour = samples.lit, with.samples.picture = samples.lit_picture;
-    return with;
 }
 
 EngineView EngineView::rows(int y0, int y1) const {

@@ -45,9 +45,7 @@ struct Samples {
     View<const float> coc_px;  // signed radius, + behind focus
     // If `colour` is a layer of a picture: that picture. Empty otherwise.
     View<const Rgba> picture;
-    // Both with the light that was taken out of them to be drawn by itself: what continues behind an edge is
-    // as bright as what shows. Empty: none was.
-    View<const Rgba> lit, lit_picture;
+    bool is_light = true;  // of a layer: as in SampleLayer
     // Every sample of every pixel, when more is known than its front view (deep files, hidden layers); then
     // colour and coc_px are not all there is to hit. Empty otherwise.
     CocSamplesView deep;
@@ -106,7 +104,6 @@ struct EngineView {
     int width() const { return samples.colour.width(); }
     int height() const { return samples.colour.height(); }
     const EngineView& all() const { return window.whole ? *window.whole : *this; }
-    EngineView with_all_light() const;
     // Rows y0…y1-1 as a separate view, while this one lasts. The edges towards the other rows count as open.
     EngineView rows(int y0, int y1) const;
 };

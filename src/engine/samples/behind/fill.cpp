@@ -317,7 +317,7 @@ struct Band {
     const Mixtures& mixtures;
     View<const float> coc;
     Rect rows;
-    float shared_from_px;
+    const FillRule& rule;
     Image<Range> ranges;  // of its pixels in `hidden`
     std::vector<HiddenGuess> hidden;
     Answers answers;
@@ -329,6 +329,7 @@ struct Band {
                 const Mixture* m = mixtures.at(x, y);
                 // (A silhouette's farther surface hides another one if it lies in front of focus itself.)
                 if (m && m->shows_far && m->far_coc_px > -completion_model.apart_px()) continue;
+                if ((m && !m->shows_far ? m->near_coc_px : coc(x, y)) > rule.hides_before_px) continue;
                 if ((!m || m->shows_far) && !filler.may_hide(x, y)) continue;
                 Range& own = ranges(x, y - rows.y0);
                 if (const Range* known = answers.find(x, y, coc(x, y))) {
@@ -341,8 +342,8 @@ struct Band {
                 // Nothing found here; neighbours closer to the silhouette may still find
                 // something.
                 if (own.count == 0) continue;
-                answers.add(x, y, coc(x, y), shared_square(std::span(hidden).subspan(begin), shared_from_px),
-                            own);
+                answers.add(x, y, coc(x, y),
+                            shared_square(std::span(hidden).subspan(begin), rule.shared_from_px), own);
             }
     }
 };
@@ -370,8 +371,7 @@ HiddenLayers fill_hidden(const LitPicture& picture, View<const float> coc,
     parallel_for(bands, workers, [&](int i) {
         const Rect rows =
             Rect{0, i * kLargestSquare, width, (i + 1) * kLargestSquare}.intersected(coc.rect());
-        Band band{filler, mixtures, coc, rows, rule.shared_from_px, Image<Range>(width, rows.height()),
-                  {},     {}};
+        Band band{filler, mixtures, coc, rows, rule, Image<Range>(width, rows.height()), {}, {}};
         for (int x = 0; x < width; x += kLargestSquare)
             band.fill_square(Rect{x, rows.y0, x + kLargestSquare, rows.y1}.intersected(rows));
         for (int y = rows.y0; y < rows.y1; ++y)

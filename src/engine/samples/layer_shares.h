@@ -7,7 +7,6 @@
 // coverage (mattes) stay within the range of the layer, and those of a matte and its complement sum to 1.
 #pragma once
 
-#include "engine/lights/highlights.h"
 #include "engine/waist/engine.h"
 
 #include <span>
@@ -34,8 +33,5 @@ private:
 
 // The layer's light in the place of the beauty's; coverage stays.
 CocSamples lit_by(const CocSamples& base, const std::vector<Rgba>& shares, const SampleLayer& layer);
-// The same for highlights, which were removed from `base`. Empty for mattes.
-std::vector<Highlight> lit_by(const std::vector<Highlight>& highlights, const CocSamples& base,
-                              const std::vector<Rgba>& shares, const SampleLayer& layer);
 
 }  // namespace petzval::engine

@@ -1,4 +1,4 @@
-#include "engine/scatter/layer_light.h"
+#include "engine/samples/layer_shares.h"
 
 #include "base/parallel.h"
 

@@ -1,0 +1,92 @@
+#include "engine/samples/flat_surfaces.h"
+
+#include "base/parallel.h"
+#include "engine/samples/behind/smooth.h"
+#include "engine/samples/connectivity.h"
+#include "engine/samples/known_surfaces.h"
+#include "engine/samples/layer_shares.h"
+#include "engine/samples/outlines/hidden_outlines.h"
+#include "engine/samples/white.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace petzval::engine {
+namespace {
+
+// Reduces the light of lamps to the light that they begin at.
+Dim without_lamps(float white) {
+    constexpr float kLampWhites = 4;  // 2 to 16 score alike; with 1, wide lit surfaces count
+    const float least = kLampWhites * white;
+    const auto reduced = [least](int, int, Rgba light) {
+        const float part = least * light.a / luminance(light);
+        return Rgba{part * light.r, part * light.g, part * light.b, light.a};
+    };
+    return {reduced, least, white};
+}
+
+FlatSurfaces surfaces_of(const EngineView& input, View<const Rgba> colour, bool fills) {
+    const Samples& samples = input.samples;
+    Workers& workers = *input.services.workers;
+    const float white = white_of(input.all().samples.judged(), workers);
+    const LitPicture picture{colour, white > 0 ? without_lamps(white) : Dim{}};
+    const Image<unsigned char> connected = connections(samples.coc_px, workers);
+    FillRule rule = FillRule::draft();
+    rule.hides_before_px = -1;
+    FlatSurfaces found;
+    found.mixtures = unmix_silhouettes(picture, samples.coc_px, connected, workers, UnmixRule::draft());
+    if (fills && samples.nearest_coc_px < rule.hides_before_px)
+        found.hidden = fill_hidden(picture, samples.coc_px, connected, found.mixtures, samples.nearest_coc_px,
+                                   samples.farthest_coc_px, rule, white, workers);
+    unmix_nearer(found.mixtures, picture, found.hidden, workers);
+    return found;
+}
+
+// Gives the surfaces of a picture the light of its layer.
+void take_light_of_layer(const EngineView& layer, FlatSurfaces& surfaces) {
+    EngineView picture = layer;
+    picture.samples.colour = layer.samples.picture;
+    const View<const Rgba> colour = picture.samples.colour;
+    const View<const float> coc_px = picture.samples.coc_px;
+    CocSamples all;
+    all.width = colour.width();
+    const auto each_pixel = [&](const auto& visit) {
+        for (int y = 0; y < colour.height(); ++y)
+            for (int x = 0; x < colour.width(); ++x) visit(x, y);
+    };
+    each_pixel([&](int x, int y) {
+        all.first.push_back(all.samples.size());
+        surfaces.visit(colour, coc_px, x, y, 1, [&](Rgba c, float coc, float) {
+            all.samples.push_back({c, coc, coc});
+        });
+    });
+    all.first.push_back(all.samples.size());
+    const SampleLayer light{layer.samples.colour, layer.samples.is_light};
+    const CocSamples lit = lit_by(all, LayerShares(picture, all, {&light, 1}).of(0), light);
+    std::size_t i = 0;
+    each_pixel([&](int x, int y) {
+        surfaces.change(colour, coc_px, x, y, [&](Rgba& c, float, float) { c = lit.samples[i++].colour; });
+    });
+}
+
+}  // namespace
+
+std::size_t FlatSurfaces::bytes() const {
+    std::size_t bytes = mixtures.bytes() + hidden.ranges.bytes();
+    for (const auto& band : hidden.bands) bytes += band.size() * sizeof(Hidden);
+    return bytes;
+}
+
+FlatSurfaces preview_surfaces(const EngineView& input, bool fills) {
+    FlatSurfaces found = surfaces_of(input, input.samples.judged(), fills);
+    if (!input.samples.picture.empty()) take_light_of_layer(input, found);
+    return found;
+}
+
+int preview_reach_px(const EngineView& input) {
+    const float largest = std::max(-input.samples.nearest_coc_px, input.samples.farthest_coc_px);
+    return int(std::ceil(2 * largest)) + kOutlineReachPx + kSmoothReachPx;
+}
+
+}  // namespace petzval::engine

@@ -1,0 +1,67 @@
+// The surfaces of a flat picture: separated silhouettes, and estimated hidden surfaces.
+#pragma once
+
+#include "engine/samples/hidden.h"
+#include "engine/waist/engine.h"
+
+#include <cstddef>
+
+namespace petzval::engine {
+
+struct FlatSurfaces {
+    Mixtures mixtures;    // pixels at silhouettes, separated
+    HiddenLayers hidden;  // what lies behind the visible surfaces
+
+    // The surfaces of pixel (x, y) from the nearest, as emit(colour, coc_px, share): colour is premultiplied
+    // by share, the part of the pixel that the surface takes up. share_alone: of a pixel that shows a single
+    // surface. Light of lamps behind a silhouette comes last, with share 0.
+    template <typename Emit>
+    void visit(View<const Rgba> colour, View<const float> coc_px, int x, int y, float share_alone,
+               Emit&& emit) const {
+        visit(*this, colour, coc_px, x, y, share_alone, emit);
+    }
+    // The same; what the emitted references change is changed here. Pixels may share hidden surfaces.
+    template <typename Emit>
+    void change(View<const Rgba> colour, View<const float> coc_px, int x, int y, Emit&& emit) {
+        visit(*this, colour, coc_px, x, y, 1, emit);
+    }
+
+    // The hidden surface that shows most of itself behind the pixel; null: none was found.
+    const Hidden* most_hidden(int x, int y) const {
+        const Hidden* most = nullptr;
+        float open = 1, most_shows = 0;
+        for (const Hidden& h : hidden.at(x, y)) {
+            const float shows = open * h.share;
+            if (shows > most_shows) most = &h, most_shows = shows;
+            open -= shows;
+        }
+        return most;
+    }
+    bool empty() const { return mixtures.empty() && hidden.ranges.empty(); }
+    std::size_t bytes() const;
+
+private:
+    template <typename Self, typename Emit>
+    static void visit(Self& self, View<const Rgba> colour, View<const float> coc_px, int x, int y,
+                      float share_alone, Emit& emit) {
+        constexpr float kLeastShare = 1e-3f;
+        auto* const m = self.mixtures.at(x, y);
+        const auto behind = self.hidden.at(x, y);
+        if (Rgba alone = colour(x, y); !m) emit(alone, coc_px(x, y), share_alone);
+        if (m && (m->near_share > kLeastShare || m->lights_near))
+            emit(m->near_colour, m->near_coc_px, m->near_share);
+        if (m && (m->shows_far || behind.empty())) emit(m->far_colour, m->far_coc_px, 1.0f);
+        for (auto& h : behind) emit(h.colour, h.coc_px, h.share);
+        if (m && m->far_light != Rgba{}) emit(m->far_light, m->lamp_coc_px, 0.0f);
+    }
+};
+
+// The surfaces of a picture as previews draw them: the estimate of hidden.h on a draft's terms. Nothing is
+// estimated behind surfaces in focus or beyond it: few of a lens's rays pass those. If input.samples.colour
+// is a layer: its part of the picture's surfaces. fills: false estimates nothing.
+FlatSurfaces preview_surfaces(const EngineView& input, bool fills);
+
+// Rows around a row that may change its surfaces.
+int preview_reach_px(const EngineView& input);
+
+}  // namespace petzval::engine
