@@ -88,13 +88,13 @@ PETZVAL_C_API void petzval_session_close(petzval_session* session); /* no call m
 
 typedef struct petzval_usage {
     size_t size;
-    uint64_t kept_bytes; /* kernels kept between frames */
+    uint64_t kept_bytes; /* kernels, traced rays and stars kept between frames */
     int lenses;          /* kept with their cameras */
 } petzval_usage;
 
 /* usage->size limits the members that are written. */
 PETZVAL_C_API petzval_status petzval_session_usage(const petzval_session* session, petzval_usage* usage);
-/* Frees kernels, least recently used first, until at most this many bytes are kept. */
+/* Frees kernels, rays and stars, least recently used first, until at most this many bytes are kept. */
 PETZVAL_C_API petzval_status petzval_session_trim(petzval_session* session, uint64_t bytes);
 
 /* --- Names

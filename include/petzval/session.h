@@ -73,7 +73,7 @@ struct Control {
 };
 
 struct SessionUsage {
-    std::size_t kept_bytes = 0;  // kernels and stars kept between frames
+    std::size_t kept_bytes = 0;  // kernels, traced rays and stars kept between frames
     int lenses = 0;              // kept with their cameras
 };
 

@@ -137,7 +137,7 @@ class Session:
         return {"kept_bytes": usage.kept_bytes, "lenses": usage.lenses}
 
     def trim(self, kept_bytes: int = 0) -> None:
-        """Frees kernels, least recently used first, until at most so many bytes are kept."""
+        """Frees kernels, rays and stars, least recently used first, until at most so many bytes are kept."""
         call("petzval_session_trim", self._open(), kept_bytes)
 
     def close(self) -> None:

@@ -69,7 +69,7 @@ class Session:
         """{"kept_bytes": …, "lenses": …}: what is kept between frames."""
 
     def trim(self, kept_bytes: int=0) -> None:
-        """Frees kernels, least recently used first, until at most so many bytes are kept."""
+        """Frees kernels, rays and stars, least recently used first, until at most so many bytes are kept."""
 
     def close(self) -> None:
         """Ends the session. No frame may be under way."""

@@ -19,6 +19,7 @@
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace petzval {
 
@@ -94,9 +95,18 @@ struct Session::Contents {
         return made;
     }
 
+    // Those of the lenses, each once: frames of other cameras and looks share them. Requires: `mutex` is
+    // held.
+    std::vector<std::shared_ptr<kernel::LastRays>> rays_of_lenses() const {
+        std::vector<std::shared_ptr<kernel::LastRays>> all;
+        for (const auto& [key, lens] : lenses)
+            if (std::find(all.begin(), all.end(), lens->rays) == all.end()) all.push_back(lens->rays);
+        return all;
+    }
+
     // Lenses that hold more than stars and other lenses leave them lose their kernels first, then go.
     void trim(std::size_t bytes) {
-        // Tables of a lens besides its kernels: 3 to 7 MiB.
+        // Tables of a lens besides its kernels: up to 7 MiB.
         constexpr std::size_t kMostLenses = 8, kTables = std::size_t(6) << 20;
         const std::size_t most = bytes > 0 ? std::clamp<std::size_t>(bytes / kTables, 1, kMostLenses) : 0;
         const std::lock_guard lock(mutex);
@@ -106,6 +116,10 @@ struct Session::Contents {
             lens->trim(bytes - std::min(bytes, held));
             held += lens->bytes();
         }
+        for (const auto& rays : rays_of_lenses()) {
+            rays->trim(bytes - std::min(bytes, held));
+            held += rays->bytes();
+        }
         while (lenses.size() > most) lenses.pop_back();
     }
 
@@ -113,6 +127,7 @@ struct Session::Contents {
         const std::lock_guard lock(mutex);
         SessionUsage usage;
         for (const auto& [key, lens] : lenses) usage.kept_bytes += lens->bytes();
+        for (const auto& rays : rays_of_lenses()) usage.kept_bytes += rays->bytes();
         usage.kept_bytes += stars.bytes();
         usage.lenses = int(lenses.size());
         return usage;

@@ -90,6 +90,7 @@ Result<std::shared_ptr<MountedLens>> MountedLens::make(const FrameRequest& reque
     constexpr std::size_t kMostRemembered = std::size_t(256) << 20;
     auto mounted = std::make_shared<MountedLens>();
     mounted->store = store_for(request);
+    mounted->rays = request.lens->contents().last_rays;
     mounted->remembered = std::make_shared<kernel::RememberedKernels>(std::min(most_bytes, kMostRemembered));
     auto levels = lens_levels(request, mounted->store, mounted->remembered, 0);
     if (!levels) return levels.error();

@@ -6,6 +6,7 @@
 #include "engine/waist/engine.h"
 #include "kernel/keep/kernel_store.h"
 #include "kernel/keep/remembered_lens.h"
+#include "kernel/lenses/opened_lens.h"
 #include "kernel/model/lens_model.h"
 #include "session/request.h"
 
@@ -40,7 +41,10 @@ struct MountedLens {
         std::numeric_limits<std::size_t>::max()};           // of `levels`, and what engines know of them
     std::shared_ptr<kernel::RememberedKernels> remembered;  // of `levels` and `lamps`, before they are cut
 
-    // All that the lens keeps between frames.
+    // Rays of the opened lens, for all cameras that it was used with.
+    std::shared_ptr<kernel::LastRays> rays;
+
+    // Kernels that are kept between frames.
     std::size_t bytes() const { return kernels.bytes() + remembered->bytes(); }
     // Those of `kernels` stay longest: drawing asks for them first.
     void trim(std::size_t bytes) {

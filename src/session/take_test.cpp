@@ -3,6 +3,8 @@
 #include "petzval/glare.h"
 #include "petzval/session.h"
 
+#include "kernel/lenses/opened_lens.h"
+
 #include <algorithm>
 
 #include <gtest/gtest.h>
@@ -153,6 +155,34 @@ TEST(Take, AStarIsKeptFromFrameToFrameAndLightsThemAlike) {
     ASSERT_TRUE(session.take(r.job, look));
     EXPECT_GT(session.usage().kept_bytes, kept);
     session.trim(0);
+    EXPECT_EQ(session.usage().kept_bytes, 0u);
+}
+
+TEST(Take, RaysOfAnOpenedLensCountAsKeptAndAreGivenBack) {
+    Rendered r;
+    LensChoice choice;
+    choice.name = "double-gauss";
+    const Lens lens = Lens::open(choice).value();
+    r.job.opened_lens = lens, r.job.camera.f_number = 2.8;
+    Look look;
+    look.lens = choice;
+    Session session;
+    kernel::LastRays& rays = *lens.contents().last_rays;
+    for (const double focus_m : {2.0, 3.0}) {
+        const std::size_t before = rays.bytes(), kept = session.usage().kept_bytes;
+        r.job.camera.focus_distance_m = focus_m;
+        const auto taken = session.take(r.job, look);
+        ASSERT_TRUE(taken) << taken.error().message;
+        EXPECT_GT(rays.bytes(), before);
+        EXPECT_GE(session.usage().kept_bytes, kept + rays.bytes() - before);
+    }
+    const std::size_t all = rays.bytes(), kept = session.usage().kept_bytes;
+    session.trim(kept - 1);
+    EXPECT_LT(rays.bytes(), all);
+    EXPECT_GT(rays.bytes(), 0u);
+    EXPECT_LT(session.usage().kept_bytes, kept);
+    session.trim(0);
+    EXPECT_EQ(rays.bytes(), 0u);
     EXPECT_EQ(session.usage().kept_bytes, 0u);
 }
 

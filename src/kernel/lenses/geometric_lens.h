@@ -21,6 +21,8 @@ public:
         (void)choice, (void)mount;
         return nullptr;
     }
+    // The size of the traced rays, which copies of a lens share.
+    virtual std::size_t rays_bytes() const { return 0; }
     // The outline that passes light, seen from `field`; pixel orientation, pupil radii, before pixel aspect.
     virtual std::vector<Point> pupil_outline(FieldPosition field, double tolerance) const = 0;
     // Landing of points of the pupil in pixels, pixel aspect included. Requires: the lens outlives the

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <mutex>
 
 namespace petzval::kernel {
@@ -77,6 +78,25 @@ Result<RayModel> ray_model(const Lens& lens, const Mount& mount) {
 }
 
 }  // namespace
+
+std::size_t LastRays::bytes() {
+    const std::lock_guard lock(mutex);
+    std::size_t sum = 0;
+    for (const Traced& known : traced) sum += known.model->rays_bytes();
+    return sum;
+}
+
+void LastRays::trim(std::size_t most_bytes) {
+    const std::lock_guard lock(mutex);
+    std::size_t kept = 0;
+    auto oldest = traced.end();
+    while (oldest != traced.begin()) {
+        kept += std::prev(oldest)->model->rays_bytes();
+        if (kept > most_bytes) break;
+        --oldest;
+    }
+    traced.erase(traced.begin(), oldest);
+}
 
 Result<Model> make_lens(const Lens& lens, const Mount& mount) {
     const LensChoice& choice = lens.choice();

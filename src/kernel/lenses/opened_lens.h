@@ -30,6 +30,10 @@ struct LastRays {
     static constexpr std::size_t kMost = 12;  // cameras; a strip of discs has one for each disc behind focus
     std::mutex mutex;
     std::vector<Traced> traced;
+
+    std::size_t bytes();  // of all traced rays
+    // Forgets the oldest until at most so many bytes are left.
+    void trim(std::size_t most_bytes);
 };
 }  // namespace kernel
 

@@ -168,7 +168,7 @@ Status TracedModel::trace(const optics::Prescription& lens) {
 
     place_near_object(*traced);
     trace_fields(*traced);
-    if (nodes_.empty()) return refuse(lens.name + ": no light passes to the middle of the picture");
+    if (nodes_->empty()) return refuse(lens.name + ": no light passes to the middle of the picture");
     return Done{};
 }
 
@@ -197,14 +197,16 @@ void TracedModel::trace_fields(const optics::TracedLens& lens) {
     const double usable_deg = designed_deg > 0 ? designed_deg : kUnstatedField_deg;
     const double designed = std::tan(std::min(usable_deg, 85.0) * kPi / 180);
     largest_field_ = std::min(1.0, designed / corner);
+    auto nodes = std::make_shared<Nodes>();
     for (int i = 0; i < kNodes; ++i) {
         const double size = largest_field_ * i / (kNodes - 1);
         std::optional<Node> node = traced_node(lens, std::atan(size * corner));
         if (!node) break;
-        nodes_.push_back(std::move(*node));
+        nodes->push_back(std::move(*node));
     }
     node_step_ = largest_field_ / (kNodes - 1);
-    if (!nodes_.empty()) largest_field_ = node_step_ * double(nodes_.size() - 1);
+    if (!nodes->empty()) largest_field_ = node_step_ * double(nodes->size() - 1);
+    nodes_ = std::move(nodes);
     if (largest_field_ < 0.99) {
         std::ostringstream text;
         text << "; made for " << std::atan(largest_field_ * corner) * 180 / kPi
@@ -281,7 +283,7 @@ std::vector<Displacement> TracedModel::traced_per_coc(const optics::TracedLens& 
 }
 
 void TracedModel::measure() {
-    for (const Node& node : nodes_)
+    for (const Node& node : *nodes_)
         for (const RayMap& map : node.maps)
             for (const Point& corner : node.open) {
                 const PupilPowers powers((1 / std::max(1.0, std::hypot(corner.x, corner.y))) * corner);
@@ -294,25 +296,33 @@ void TracedModel::measure() {
     reach_offset_mm_ += added_.reach();
 }
 
+std::size_t TracedModel::rays_bytes() const {
+    std::size_t bytes = nodes_->capacity() * sizeof(Node);
+    for (const Node& node : *nodes_)
+        bytes += node.maps.capacity() * sizeof(RayMap) + node.open.capacity() * sizeof(Point);
+    return bytes;
+}
+
 double TracedModel::reach_px(double coc_radius_px) const {
     const double reach = px_per_mm_ * reach_offset_mm_ + reach_per_coc_ * std::abs(coc_radius_px);
     return reach * std::max(1.0, mount_.pixel_aspect);
 }
 
 TracedModel::Node TracedModel::at(double field_size) const {
+    const Nodes& nodes = *nodes_;
     const double place = node_step_ > 0 ? std::min(field_size, largest_field_) / node_step_ : 0;
-    const std::size_t i = std::min(std::size_t(place), nodes_.size() - 1),
-                      k = std::min(i + 1, nodes_.size() - 1);
+    const std::size_t i = std::min(std::size_t(place), nodes.size() - 1),
+                      k = std::min(i + 1, nodes.size() - 1);
     const double t = place - double(i);
-    Node node = nodes_[i];
+    Node node = nodes[i];
     for (std::size_t w = 0; w < node.maps.size(); ++w) {
-        node.maps[w].add(-t, nodes_[i].maps[w]);
-        node.maps[w].add(t, nodes_[k].maps[w]);
+        node.maps[w].add(-t, nodes[i].maps[w]);
+        node.maps[w].add(t, nodes[k].maps[w]);
         if (added_.any())
             node.maps[w].offset_mm.add(1, added_.polynomial(field_size, colour_place(wavelength_nm_[w])));
     }
     for (std::size_t c = 0; c < node.open.size(); ++c)
-        node.open[c] = node.open[c] + t * (nodes_[k].open[c] - node.open[c]);
+        node.open[c] = node.open[c] + t * (nodes[k].open[c] - node.open[c]);
     return node;
 }
 

@@ -46,6 +46,7 @@ public:
     }
     std::optional<std::vector<Rgba>> axial_row(double coc_radius_px, RingColours colours) const override;
     std::string description() const override { return description_; }
+    std::size_t rays_bytes() const override;
 
 private:
     struct Node {                  // one field size
@@ -88,7 +89,9 @@ private:
            near_coc_mm_ = 0;  // of the nearer object, its radius on the sensor; 0: none
     double coc_at_infinity_mm_ = 0;
     std::vector<double> wavelength_nm_;
-    std::vector<Node> nodes_;  // even steps of field size, from 0
+    using Nodes = std::vector<Node>;
+    std::shared_ptr<const Nodes> nodes_ =
+        std::make_shared<Nodes>();  // even steps of field size, from 0; copies share them
     double node_step_ = 0;
     double largest_field_ = 0;  // of the last node; beyond it, the lens is as there
     double reach_offset_mm_ = 0, reach_per_coc_ = 1;

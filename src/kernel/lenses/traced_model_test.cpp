@@ -81,6 +81,27 @@ TEST(TracedModel, AnotherLookUsesTheRaysOfTheLensAgain) {
     EXPECT_EQ(last.traced.size(), kept);
 }
 
+TEST(TracedModel, RaysOfTheOldestCamerasGoFirst) {
+    LensChoice choice;
+    choice.name = "double-gauss";
+    const Lens lens = Lens::open(choice).value();
+    LastRays& last = *lens.contents().last_rays;
+    EXPECT_EQ(last.bytes(), 0u);
+    for (const double f_number : {2.8, 4.0, 5.6})
+        ASSERT_TRUE(make_lens(lens, mount_of(choice.name, f_number)));
+    const std::size_t all = last.bytes();
+    // 15 field sizes, 7 wavelengths, 3 displacements of 55 terms and 30 of light, 8 bytes each.
+    EXPECT_GE(all, 3u * 15 * 7 * (3 * 55 + 30) * 8);
+    last.trim(all);
+    EXPECT_EQ(last.bytes(), all);
+    last.trim(all - 1);
+    ASSERT_EQ(last.traced.size(), 2u);
+    EXPECT_EQ(last.traced.front().mount.camera.f_number, 4.0);
+    EXPECT_EQ(last.traced.back().mount.camera.f_number, 5.6);
+    last.trim(0);
+    EXPECT_EQ(last.bytes(), 0u);
+}
+
 TEST(TracedModel, PolynomialsStandForTheRays) {
     for (const std::string name :
          {"double-gauss", "takumar", "triplet-cooke", "petzval-projection", "tessar"}) {
