@@ -106,12 +106,12 @@ public:
                                Picture spare = {});
     // Uses the pictures, lens, view and memory of a job. Its other choices that differ from the look are
     // listed in the warnings.
-    Result<DefocusReport> take(const DefocusJob& rendered, const Look& look, const Control& control = {});
+    Result<DefocusReport> take(const DefocusJob& job, const Look& look, const Control& control = {});
 
     // The same as petzval::add_light() for the whole picture; control.region is ignored.
     Result<Picture> add_light(Picture picture, const Rendered& rendered, const Look& look,
                               const Control& control = {});
-    Result<Picture> add_light(Picture picture, const DefocusJob& rendered, const Look& look,
+    Result<Picture> add_light(Picture picture, const DefocusJob& job, const Look& look,
                               const Control& control = {});
 
     // Margin around a region that affects it, in pixels: four times the largest radius, or the reach of the

@@ -63,7 +63,7 @@ Result<DefocusReport> Session::take(const DefocusJob& job, const Look& look, con
     if (!rendered) return rendered.error();
     auto report = take(std::move(*rendered), look, control_of(job, control), spare_of(job));
     if (!report) return report;
-    for (auto& unused : {not_used_of(job, look), not_used_of(job, contents_->settings, control)})
+    for (const auto& unused : {not_used_of(job, look), not_used_of(job, contents_->settings, control)})
         report->warnings.insert(report->warnings.end(), unused.begin(), unused.end());
     return report;
 }
@@ -157,15 +157,14 @@ std::vector<std::string> engine_names() {
     return names;
 }
 
-Result<Plane> circle_of_confusion(const Rendered& rendered, const Look& look, Workers* lent) {
-    const std::shared_ptr<Workers> held = workers_of(0, lent);
-    Workers& workers = *held;
-    const FrameRequest request = request_of(rendered, look, {}, {}, workers);
+Result<Plane> circle_of_confusion(const Rendered& rendered, const Look& look, Workers* workers) {
+    const std::shared_ptr<Workers> held = workers_of(0, workers);
+    const FrameRequest request = request_of(rendered, look, {}, {}, *held);
     if (const Status fine = check_request(request); !fine) return fine.error();
     const auto radii = Radii::make(request);
     if (!radii) return radii.error();
-    const HardDepth edges = hard_depth(rendered, look.depth_edges, workers);
-    return radii->of(depth_or_radii(edges.of(rendered)), workers);
+    const HardDepth edges = hard_depth(rendered, look.depth_edges, *held);
+    return radii->of(depth_or_radii(edges.of(rendered)), *held);
 }
 
 Result<Plane> circle_of_confusion(const DefocusJob& job) {
