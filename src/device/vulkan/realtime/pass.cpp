@@ -67,13 +67,12 @@ RealtimePrograms::RealtimePrograms(Opened opened, const RealtimeSettings& settin
     const VkPipelineCreateFlags flags = settings.is_cut ? VK_PIPELINE_CREATE_DISPATCH_BASE_BIT : 0;
     try {
         for (std::size_t step = 0; step < kNames.size(); ++step) {
-            programs_[step] =
-                make_program(opened_, shader_of(step, settings.result), 0, flags, settings.cache);
-            name(opened_, VK_OBJECT_TYPE_PIPELINE, word_of(programs_[step].pipeline),
+            steps_[step] = make_program(opened_, shader_of(step, settings.result), 0, flags, settings.cache);
+            name(opened_, VK_OBJECT_TYPE_PIPELINE, word_of(steps_[step].pipeline),
                  std::string("petzval ") + kNames[step]);
         }
         if (settings.blurs_layers && settings.result != RealtimeResult::Half)
-            programs_.back() = make_program(opened_, Shader::RealtimeCombine16, 0, flags, settings.cache);
+            combine_layer_ = make_program(opened_, Shader::RealtimeCombine16, 0, flags, settings.cache);
     } catch (...) {
         destroy();
         throw;
@@ -83,7 +82,8 @@ RealtimePrograms::RealtimePrograms(Opened opened, const RealtimeSettings& settin
 RealtimePrograms::~RealtimePrograms() { destroy(); }
 
 void RealtimePrograms::destroy() {
-    for (const Program& program : programs_) destroy_program(opened_, program);
+    for (const Program& program : steps_) destroy_program(opened_, program);
+    destroy_program(opened_, combine_layer_);
 }
 
 RealtimePass::RealtimePass(const Opened& opened, const VkPhysicalDeviceMemoryProperties& memory,

@@ -67,17 +67,18 @@ public:
     ~RealtimePrograms();
     RealtimePrograms(const RealtimePrograms&) = delete;
     RealtimePrograms& operator=(const RealtimePrograms&) = delete;
-    const Program& operator[](std::size_t step) const { return programs_[step]; }
+    enum Step { kMeasure, kSplit, kReach, kGather, kCombine, kSteps };
+    const Program& operator[](Step step) const { return steps_[step]; }
     // The programs of a blurred layer, whose image has halves.
-    const Program& of_layer(std::size_t step) const {
-        return step + 2 == programs_.size() && programs_[step + 1].pipeline ? programs_[step + 1]
-                                                                            : programs_[step];
+    const Program& of_layer(Step step) const {
+        return step == kCombine && combine_layer_.pipeline ? combine_layer_ : steps_[step];
     }
 
 private:
     void destroy();
     const Opened opened_;
-    std::array<Program, 6> programs_;  // the last: combine of a layer, where that of the frame cannot be
+    std::array<Program, kSteps> steps_;
+    Program combine_layer_;  // null where layers are not blurred, or frames have halves too
 };
 
 // Everything is made at once and kept. Throws Failed.
@@ -103,7 +104,8 @@ public:
 
     // The same in parts, in any number of submissions: begin(), then all parts of each step in turn. The bits
     // do not depend on them.
-    enum Step { kMeasure, kSplit, kReach, kGather, kCombine, kSteps };
+    using Step = RealtimePrograms::Step;
+    using enum RealtimePrograms::Step;
     void begin(VkCommandBuffer commands, std::uint32_t slot, const RealtimeImages& images,
                const RealtimeOptics& optics);
     // Requires: settings.is_cut. `plant` leaves out a barrier, to see that it is missed.
