@@ -146,7 +146,7 @@ class ToolsTest(window.WindowTest):
             wait
             expect lens.focus_mode best
             set lens.axial_colour 0.5
-            expect notice axial_colour
+            expect notice "axial colour has no effect"
             copy
             say copied
         """, "table.exr", "--engine", "gaussian")

@@ -310,7 +310,7 @@ class ViewTest(window.WindowTest):
 
     def test_what_is_wrong_is_said_in_the_window_which_stays(self):
         shutil.copy(os.path.join(self.shared, "table.exr"), os.path.join(self.shared, "gone.exr"))
-        self.do("""
+        out, _ = self.do("""
             wait
             set lens.blades 2
             expect error
@@ -333,7 +333,11 @@ class ViewTest(window.WindowTest):
             expect error no depth
             show nothing
             expect error
+            set engine realtime
+            wait
+            say error
         """, "gone.exr", "--ui-scale", "3")
+        self.assertIn("\nengine realtime needs a GPU", "\n" + out, "the window's words, not job.engine")
         for refused in ("table.exr", "missing/folder.exr"):
             _, err = self.do("wait\nsave %s\n" % refused)  # it ends before that is written
             self.assertIn(refused, err)

@@ -150,8 +150,9 @@ std::string or_unknown(const std::optional<double>& value) { return value ? text
 
 std::vector<Field> facts() {
     return {
-        fact("error", [](const App& app) { return app.error.empty() ? app.trouble : app.error; }),
-        fact("notice", [](const App& app) { return app.notice; }),
+        fact("error",
+             [](const App& app) { return plain_words(app, app.error.empty() ? app.trouble : app.error); }),
+        fact("notice", [](const App& app) { return plain_words(app, app.notice); }),
         fact("copied", [](const App& app) { return app.copied; }),
         fact("pick.x",
              [](const App& app) { return app.state.pick ? std::to_string(app.state.pick->x) : ""; }),
