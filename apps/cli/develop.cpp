@@ -1,6 +1,7 @@
 // petzval develop: scene-linear light to a display picture.
 #include "petzval/shots/develop_shot.h"
 
+#include "console/console.h"
 #include "console/report.h"
 #include "flags/camera.h"
 #include "flags/look_flags.h"
@@ -49,6 +50,8 @@ Status develop_one(const DevelopVerbFlags& flags, const Lens& lens) {
     const auto made = develop_picture(shot_of(flags), lens, flags.ocio.display(terminal()));
     if (!made) return made.error();
     const bool is_kept = made->state == FrameRecord::State::Kept;
+    if (is_kept)
+        for (const std::string& line : damage_of_kept({flags.output})) warning(line);
     if (is_kept || flags.run.json.empty()) return Done{};
     return write_report(Json::parse(made->record), flags.run.json);
 }

@@ -26,8 +26,10 @@ void OverwriteFlags::check() const {
 
 bool OverwriteFlags::skips(const std::vector<std::string>& outputs) const {
     const OutputState there = state_of(outputs, {}, existing());
-    if (there.is_kept) note(there.why);
-    return there.is_kept;
+    if (!there.is_kept) return false;
+    note(there.why);
+    for (const std::string& line : damage_of_kept(outputs)) warning(line);
+    return true;
 }
 
 ExistingOutputs OverwriteFlags::existing() const {

@@ -36,6 +36,13 @@ SceneFiles without_kept(SceneFiles files, const FrameLoopHost& host) {
     return files;
 }
 
+void warn_of_damage(const SceneFiles& files, const FrameLoopHost& host) {
+    std::vector<std::string> kept;
+    for (const std::string& path : outputs_of(files))
+        if (state_of({path}, {}, files.existing).is_kept) kept.push_back(path);
+    for (const std::string& line : damage_of_kept(kept)) say(host, Say::Warning, line);
+}
+
 // Measured bytes of a pixel: sharp picture with depth 25 to 30, truth 17 more. What the scene itself and
 // hidden layers take is not known yet.
 Status fits(const SceneFiles& files) {
@@ -120,34 +127,7 @@ Status write_record(const SceneFiles& files, const std::string& record, const Fr
     return write_text(path, finished_record(record, 2, host.in_words));
 }
 
-// The record of a frame for a report over all frames.
-FrameRecord short_record(const SceneFiles& files, double seconds) {
-    Json record = Json::parse(empty_record("scene make"));
-    record["input"] = files.scene;
-    record["output"] = files.output;
-    record["seconds"]["total"] = seconds;
-    return frame_record(as_text(record));
-}
-
-}  // namespace
-
-std::vector<std::string> outputs_of(const SceneFiles& files) {
-    std::vector<std::string> names;
-    for (const std::string& name : {files.output, files.truth, files.layers})
-        if (!name.empty()) names.push_back(name);
-    return names;
-}
-
-FoundCamera found_camera(const Camera& camera, const std::string& origin) {
-    FoundCamera found;
-    found.focal_length_mm = FoundNumber{camera.focal_length_mm, origin};
-    found.sensor_width_mm = FoundNumber{camera.sensor_width_mm, origin};
-    found.f_number = FoundNumber{camera.f_number, origin};
-    found.focus_distance_m = FoundNumber{camera.focus_distance_m, origin};
-    return found;
-}
-
-Result<FrameRecord> make_scene_files(const SceneFiles& files, const FrameLoopHost& host) {
+Result<FrameRecord> make_files(const SceneFiles& files, const FrameLoopHost& host) {
     const Stopwatch total;
     FrameRecord made;
     made.output = files.output;
@@ -185,6 +165,38 @@ Result<FrameRecord> make_scene_files(const SceneFiles& files, const FrameLoopHos
     return made;
 }
 
+// The record of a frame for a report over all frames.
+FrameRecord short_record(const SceneFiles& files, double seconds) {
+    Json record = Json::parse(empty_record("scene make"));
+    record["input"] = files.scene;
+    record["output"] = files.output;
+    record["seconds"]["total"] = seconds;
+    return frame_record(as_text(record));
+}
+
+}  // namespace
+
+std::vector<std::string> outputs_of(const SceneFiles& files) {
+    std::vector<std::string> names;
+    for (const std::string& name : {files.output, files.truth, files.layers})
+        if (!name.empty()) names.push_back(name);
+    return names;
+}
+
+FoundCamera found_camera(const Camera& camera, const std::string& origin) {
+    FoundCamera found;
+    found.focal_length_mm = FoundNumber{camera.focal_length_mm, origin};
+    found.sensor_width_mm = FoundNumber{camera.sensor_width_mm, origin};
+    found.f_number = FoundNumber{camera.f_number, origin};
+    found.focus_distance_m = FoundNumber{camera.focus_distance_m, origin};
+    return found;
+}
+
+Result<FrameRecord> make_scene_files(const SceneFiles& files, const FrameLoopHost& host) {
+    warn_of_damage(files, host);
+    return make_files(files, host);
+}
+
 FrameWork work_of(const SceneFiles& files, const FrameLoopHost& host) {
     FrameWork work;
     work.input = files.scene;  // no file: frames are given
@@ -199,7 +211,7 @@ FrameWork work_of(const SceneFiles& files, const FrameLoopHost& host) {
         const Stopwatch watch;
         SceneFiles of = of_frame(files, frame);
         if (again) of.existing = ExistingOutputs::Replace;  // what is there is damaged
-        const auto made = make_scene_files(of, host);
+        const auto made = make_files(of, host);
         if (!made) return made.error();
         FrameRecord record = short_record(of, watch.seconds());
         record.state = made->state;

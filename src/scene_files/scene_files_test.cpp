@@ -87,6 +87,16 @@ TEST_F(SceneFilesTest, EachFrameHasItsFilesAndItsRecord) {
     EXPECT_TRUE(moves) << "the scene moves from frame to frame";
 }
 
+TEST_F(SceneFilesTest, ADamagedFileThatIsKeptIsNamed) {
+    files.truth = at("t.exr");
+    ASSERT_TRUE(make_scene_files(files));
+    fs::resize_file(files.truth, fs::file_size(files.truth) / 2);
+    files.existing = ExistingOutputs::Keep;
+    EXPECT_EQ(make_scene_files(files, host)->state, FrameRecord::State::Kept);
+    EXPECT_TRUE(was_said(files.truth + ": left alone, though damaged or cut off"));
+    EXPECT_FALSE(was_said(files.output + ": left alone, though damaged or cut off"));
+}
+
 // A full disk may have cut a frame.
 TEST_F(SceneFilesTest, ADamagedFrameIsMadeAgainAndAWholeOneKept) {
     files.output = at("s.####.exr");

@@ -27,7 +27,8 @@ std::string as_text(const Json& value) { return value.dump(-1, ' ', true, Json::
 // "lens.blades" and its value for every number, word and list of a look.
 void flatten(const Json& json, const std::string& path, std::map<std::string, std::string>& fields) {
     for (const auto& [key, value] : json.items()) {
-        const std::string field = path.empty() ? key : path + "." + key;
+        std::string field = path;
+        field.append(path.empty() ? "" : ".").append(key);
         if (value.is_object())
             flatten(value, field, fields);
         else
@@ -165,7 +166,18 @@ OutputState state_of(const std::vector<std::string>& outputs, const std::vector<
 
 bool is_whole_picture(const std::string& path) {
     const auto kind = kind_of_output(path);
-    return kind && *kind == FileKind::Png ? bool(read_png(path)) : bool(read_frame(path));
+    if (kind && *kind == FileKind::Png) return bool(read_png(path));
+    ReadOptions options;
+    options.need_depth = false;
+    return bool(read_frame(path, options));
+}
+
+std::vector<std::string> damage_of_kept(const std::vector<std::string>& outputs) {
+    std::vector<std::string> lines;
+    for (const std::string& path : outputs)
+        if (kind_of_output(path) && !is_whole_picture(path))
+            lines.push_back(path + ": left alone, though damaged or cut off");
+    return lines;
 }
 
 }  // namespace petzval

@@ -236,9 +236,8 @@ Result<FrameRecord> make_picture(Session& session, const ShotRunSettings& settin
     const auto record = sequence::make_frame(session, settings, host, context);
     if (!record) return record.error();
     FrameRecord made = frame_record(sequence::as_text(*record));
-    // A FrameLoop makes such frames again; one picture that the user names is left alone.
-    if (made.state == FrameRecord::State::Kept && host.say && !is_whole_picture(settings.output))
-        host.say(Say::Warning, settings.output + ": left alone, though damaged or cut off");
+    if (made.state == FrameRecord::State::Kept && host.say)
+        for (const std::string& line : damage_of_kept({settings.output})) host.say(Say::Warning, line);
     return made;
 }
 

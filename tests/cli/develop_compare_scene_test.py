@@ -1,5 +1,6 @@
 """petzval develop, compare, inspect and scene; and the commands of the README one after another."""
 import math
+import os
 import struct
 import unittest
 
@@ -240,6 +241,16 @@ class Scene(CommandLineTest):
     def test_no_clobber_leaves_a_finished_scene_alone(self):
         self.succeed("scene", "make", "slant", "-o", "s.exr", *self.SMALL)
         self.assertIn("left alone", self.succeed("scene", "make", "slant", "-o", "s.exr", "--no-clobber").err)
+
+    def test_no_clobber_names_a_damaged_file(self):
+        self.succeed("scene", "make", "slant", "-o", "s.exr", *self.SMALL)
+        for line in (["scene", "make", "slant", "-o", "made.exr"], ["develop", "s.exr", "-o", "shown.png"],
+                     ["compare", "s.exr", "s.exr", "-o", "map.png"], ["lens", "psf", "doublet", "-o", "disc.exr"]):
+            output = line[-1]
+            self.succeed(*line, *(self.SMALL if line[0] == "scene" else []))
+            self.assertNotIn("damaged", self.succeed(*line, "--no-clobber").err)
+            os.truncate(self.path(output), os.path.getsize(self.path(output)) // 2)
+            self.assertIn(output + ": left alone, though damaged or cut off", self.succeed(*line, "--no-clobber").err)
 
 
 if __name__ == "__main__":
