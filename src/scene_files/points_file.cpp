@@ -2,8 +2,8 @@
 #include "petzval/shot.h"
 #include "petzval/shots/scene_files.h"
 
-#include "sequence/record_json.h"
-#include "sequence/words.h"
+#include "base/words.h"
+#include "records/record_json.h"
 
 namespace petzval {
 namespace {
@@ -14,9 +14,9 @@ std::string camera_words(const PointSettings& points) {
            std::to_string(points.width) + " x " + std::to_string(points.height) + " px";
 }
 
-sequence::Json record_of(const PointsFile& file, std::size_t count) {
+records::Json record_of(const PointsFile& file, std::size_t count) {
     const PointSettings& points = file.settings;
-    sequence::Json record = sequence::Json::parse(empty_record("scene points"));
+    records::Json record = records::Json::parse(empty_record("scene points"));
     record["input"] = file.set;
     record["output"] = file.output;
     record["parameters"] = {{"width", points.width},
@@ -32,7 +32,7 @@ sequence::Json record_of(const PointsFile& file, std::size_t count) {
 }  // namespace
 
 Result<FrameRecord> make_points_file(const PointsFile& file, const FrameLoopHost& host) {
-    const sequence::Stopwatch total;
+    const records::Stopwatch total;
     const auto note = [&](const std::string& line) {
         if (host.say) host.say(Say::Note, line);
     };
@@ -51,11 +51,11 @@ Result<FrameRecord> make_points_file(const PointsFile& file, const FrameLoopHost
     if (Status done = write_text(file.output, lights_text(*points, {made_by, "seen by " + camera})); !done)
         return done.error();
     note("wrote " + file.output + ": " + std::to_string(points->size()) + " points, seen by " + camera);
-    sequence::Json record = record_of(file, points->size());
+    records::Json record = record_of(file, points->size());
     made.seconds = total.seconds();
     record["seconds"]["total"] = made.seconds;
     record["peak_memory_bytes"] = peak_memory_bytes();
-    made.record = sequence::as_text(record);
+    made.record = records::as_text(record);
     return made;
 }
 

@@ -5,16 +5,16 @@
 #include "petzval/records.h"
 #include "petzval/shot.h"
 
-#include "sequence/record_json.h"
+#include "records/record_json.h"
 
 #include <utility>
 
 namespace petzval {
 namespace {
 
-using sequence::as_text;
-using sequence::Json;
-using sequence::Stopwatch;
+using records::as_text;
+using records::Json;
+using records::Stopwatch;
 
 void say(const FrameLoopHost& host, Say how, const std::string& line) {
     if (host.say) host.say(how, line);

@@ -5,7 +5,7 @@
 #include "petzval/place.h"
 #include "petzval/views.h"
 
-#include "sequence/record_json.h"
+#include "records/record_json.h"
 
 #include <array>
 #include <filesystem>
@@ -16,8 +16,8 @@
 namespace petzval {
 namespace {
 
-using sequence::Json;
-using sequence::number;
+using records::Json;
+using records::number;
 
 // The picture over the whole display window, empty where the file has no pixels.
 Picture over_display_window(const Picture& colour, const Place& place) {
@@ -145,7 +145,7 @@ Result<Pictures> read(const CompareFiles& files, const FrameLoopHost& host) {
 }  // namespace
 
 Result<ComparedFiles> compare_files(const CompareFiles& files, const FrameLoopHost& host) {
-    const sequence::Stopwatch watch;
+    const records::Stopwatch watch;
     const auto pictures = read(files, host);
     if (!pictures) return pictures.error();
     const auto& [reference, test, mask, non_finite] = *pictures;
@@ -166,7 +166,7 @@ Result<ComparedFiles> compare_files(const CompareFiles& files, const FrameLoopHo
     record["seconds"]["compute"] = watch.seconds() - read_s;
     record["seconds"]["total"] = watch.seconds();
     record["peak_memory_bytes"] = peak_memory_bytes();
-    return ComparedFiles{*result, std::move(where->worst), sequence::as_text(record)};
+    return ComparedFiles{*result, std::move(where->worst), records::as_text(record)};
 }
 
 FrameWork work_of(const CompareFiles& files, const FrameLoopHost& host,

@@ -5,14 +5,14 @@
 #include "petzval/place.h"
 #include "petzval/session.h"
 
-#include "sequence/record_json.h"
+#include "records/record_json.h"
 
 #include <utility>
 
 namespace petzval {
 namespace {
 
-using sequence::Json;
+using records::Json;
 
 // Camera numbers that are missing are an error only where a part of the glare needs them.
 Status add_glare(Shot& shot, const Lens& lens, const DevelopShot& settings) {
@@ -81,13 +81,13 @@ Result<Picture> shown_by(const ShotRunHost& host, Shot& shot, DevelopSettings& d
 }  // namespace
 
 Result<FrameRecord> develop_picture(const DevelopShot& settings, const Lens& lens, const ShotRunHost& host) {
-    const sequence::Stopwatch total;
+    const records::Stopwatch total;
     const MadeWith made_with = made_with_of(settings);
     const OutputState there =
         state_of({settings.output}, files_of(settings.source), settings.existing, &made_with);
     if (there.is_kept) {
         say(host, Say::Note, there.why);
-        return frame_record(sequence::as_text(
+        return frame_record(records::as_text(
             Json{{"input", settings.source.path}, {"output", settings.output}, {"skipped", there.why}}));
     }
     if (!there.why.empty()) say(host, Say::Note, settings.output + ": made again: " + there.why);
@@ -115,7 +115,7 @@ Result<FrameRecord> develop_picture(const DevelopShot& settings, const Lens& len
     record["seconds"]["write"] = total.seconds() - read_s - glare_s;
     record["seconds"]["total"] = total.seconds();
     record["peak_memory_bytes"] = peak_memory_bytes();
-    return frame_record(sequence::as_text(record));
+    return frame_record(records::as_text(record));
 }
 
 FrameWork work_of(const DevelopShot& settings, const Lens& lens, const ShotRunHost& host) {

@@ -2,14 +2,16 @@
 // move so.
 #pragma once
 
-#include "sequence/record_json.h"
-#include "sequence/words.h"
+#include "base/words.h"
+#include "records/record_json.h"
 
 #include <cmath>
 #include <optional>
 #include <string>
 
 namespace petzval::sequence {
+
+using records::Json;
 
 class FocusJumps {
 public:

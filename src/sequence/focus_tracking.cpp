@@ -3,7 +3,7 @@
 #include "petzval/output.h"
 #include "petzval/track.h"
 
-#include "sequence/record_json.h"
+#include "records/record_json.h"
 
 #include <algorithm>
 #include <memory>
@@ -12,7 +12,7 @@
 namespace petzval {
 namespace {
 
-using sequence::Json;
+using records::Json;
 
 class Tracking {
 public:
@@ -28,14 +28,14 @@ public:
         const auto distance = distance_around_m(*shot, pixel, all_.within_px);
         if (!distance) return distance.error();
         Json record = {{"input", shot->path}, {"pixel", {pixel.x, pixel.y}}, {"warnings", shot->warnings}};
-        record["focus_distance_m"] = *distance ? sequence::number(**distance) : Json(nullptr);
+        record["focus_distance_m"] = *distance ? records::number(**distance) : Json(nullptr);
         if (*distance)
             measured_.push_back({frame, **distance});
         else
             record["warnings"].push_back("frame " + std::to_string(frame) + ": no surface at " +
                                          std::to_string(pixel.x) + "," + std::to_string(pixel.y) +
                                          "; focus is interpolated between its neighbours");
-        return frame_record(sequence::as_text(record));
+        return frame_record(records::as_text(record));
     }
 
     Status write() {

@@ -6,8 +6,8 @@
 #include "petzval/output.h"
 #include "petzval/records.h"
 
-#include "sequence/record_json.h"
-#include "sequence/words.h"
+#include "base/words.h"
+#include "records/record_json.h"
 
 #include <algorithm>
 #include <cmath>
@@ -205,9 +205,9 @@ Result<FrameRecord> FrameLoop::State::made_black(int frame, const FrameWork::Fil
     if (Status done = work.black(frame, like); !done) return done.error();
     FrameRecord record;
     record.state = FrameRecord::State::Black;
-    sequence::Json json{{"black", true}};
+    records::Json json{{"black", true}};
     if (!files.outputs.empty()) record.output = files.outputs.front(), json["output"] = record.output;
-    record.record = sequence::as_text(json);
+    record.record = records::as_text(json);
     return record;
 }
 
@@ -224,7 +224,7 @@ Result<FrameRecord> FrameLoop::State::made(int frame, const FrameWork::Files& fi
         is_whole_picture(files.outputs.front())) {
         const std::string path = files.outputs.front();
         return frame_record(
-            sequence::as_text({{"output", path}, {"skipped", "another run made it meanwhile"}}));
+            records::as_text({{"output", path}, {"skipped", "another run made it meanwhile"}}));
     }
     return record;
 }
@@ -238,12 +238,12 @@ FrameRecord FrameLoop::State::failure(int frame, const FrameWork::Files& files, 
     FrameRecord record;
     record.state = FrameRecord::State::Failed;
     record.why = error.message;
-    sequence::Json json = sequence::Json::object();
+    records::Json json = records::Json::object();
     if (!files.inputs.empty()) record.input = files.inputs.front(), json["input"] = record.input;
     if (!files.outputs.empty()) record.output = files.outputs.front(), json["output"] = record.output;
     json["error"] = error.message;
     json["error_code"] = name_of(error.code);
-    record.record = sequence::as_text(json);
+    record.record = records::as_text(json);
     return record;
 }
 
@@ -273,9 +273,9 @@ void FrameLoop::State::tell(const FrameRecord& record, std::size_t number, const
 }
 
 Status FrameLoop::State::keep(FrameRecord record) {
-    sequence::Json json = {{"frame", record.frame}};
-    json.update(sequence::Json::parse(record.record));
-    record.record = finished_record(sequence::as_text(json), -1, host.in_words);
+    records::Json json = {{"frame", record.frame}};
+    json.update(records::Json::parse(record.record));
+    record.record = finished_record(records::as_text(json), -1, host.in_words);
     if (report.is_open() && !(report << record.record << std::flush))
         return Error{ErrorCode::OutputFailed, settings.report_file + ": cannot be written"};
     if (host.frame_done && !host.frame_done(record)) return Error{ErrorCode::Cancelled, "stopped"};
@@ -283,7 +283,7 @@ Status FrameLoop::State::keep(FrameRecord record) {
 }
 
 Status FrameLoop::State::make(int frame, std::size_t number) {
-    const sequence::Stopwatch watch;
+    const records::Stopwatch watch;
     const auto of = files(frame);
     if (!of) return of.error();
     const Result<FrameRecord> done = contains(black, frame) ? made_black(frame, *of) : made(frame, *of);

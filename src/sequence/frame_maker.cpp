@@ -5,7 +5,7 @@
 #include "petzval/names.h"
 #include "petzval/version.h"
 
-#include "sequence/words.h"
+#include "base/words.h"
 
 #include <algorithm>
 #include <filesystem>

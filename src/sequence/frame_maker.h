@@ -4,7 +4,7 @@
 #include "petzval/seen_elsewhere.h"
 #include "petzval/shot_run.h"
 
-#include "sequence/record_json.h"
+#include "records/record_json.h"
 #include "sequence/write_view.h"
 
 #include <functional>
@@ -15,6 +15,12 @@
 #include <vector>
 
 namespace petzval::sequence {
+
+using records::add_stages;
+using records::as_text;
+using records::Json;
+using records::number;
+using records::Stopwatch;
 
 // Facts of one frame beside its settings.
 struct FrameContext {

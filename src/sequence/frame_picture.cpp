@@ -5,8 +5,8 @@
 #include "petzval/names.h"
 #include "petzval/output.h"
 
+#include "base/words.h"
 #include "sequence/frame_maker.h"
-#include "sequence/words.h"
 
 #include <algorithm>
 #include <limits>

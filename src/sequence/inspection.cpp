@@ -4,7 +4,7 @@
 #include "petzval/records.h"
 #include "petzval/track.h"
 
-#include "sequence/record_json.h"
+#include "records/record_json.h"
 
 #include <utility>
 #include <vector>
@@ -12,7 +12,7 @@
 namespace petzval {
 namespace {
 
-using sequence::Json;
+using records::Json;
 
 Json corners(const Rect& r) { return {r.x0, r.y0, r.x1, r.y1}; }
 
@@ -91,12 +91,12 @@ Inspection inspection_of(const Shot& shot, DepthKind kind, double permissible_ra
     record["warnings"] = shot.warnings;
     for (const std::string& line : seen.range.advice) record["warnings"].push_back(line);
     record["non_finite"] = {{"colour", shot.non_finite_colour}, {"depth", shot.depth_report.non_finite}};
-    seen.record = sequence::as_text(record);
+    seen.record = records::as_text(record);
     return seen;
 }
 
 Result<InspectedFile> inspect_file(const InspectFile& file, const Control& control) {
-    const sequence::Stopwatch watch;
+    const records::Stopwatch watch;
     auto shot = read_shot(file.source, control);
     if (!shot) return shot.error();
     if (file.transfer && !shot->display_referred)
@@ -108,7 +108,7 @@ Result<InspectedFile> inspect_file(const InspectFile& file, const Control& contr
     record["input"] = file.source.path;
     record["seconds"]["read"] = record["seconds"]["total"] = watch.seconds();
     record["peak_memory_bytes"] = peak_memory_bytes();
-    seen.record = sequence::as_text(record);
+    seen.record = records::as_text(record);
     return InspectedFile{std::move(*shot), std::move(seen)};
 }
 
@@ -135,14 +135,14 @@ FrameWork work_of(const InspectFile& file, const FrameLoopHost& host,
 }
 
 std::string header_json(const Frame& header) {
-    return sequence::as_text({{"parts", parts_json(header.parts, corners)},
-                              {"display_window", corners(header.place.display_window)},
-                              {"data_window", corners(header.place.data_window)},
-                              {"pixel_aspect", header.place.pixel_aspect},
-                              {"views", header.views},
-                              {"camera", numbers_json(header.camera)},
-                              {"detected", header.detected},
-                              {"warnings", header.warnings}});
+    return records::as_text({{"parts", parts_json(header.parts, corners)},
+                             {"display_window", corners(header.place.display_window)},
+                             {"data_window", corners(header.place.data_window)},
+                             {"pixel_aspect", header.place.pixel_aspect},
+                             {"views", header.views},
+                             {"camera", numbers_json(header.camera)},
+                             {"detected", header.detected},
+                             {"warnings", header.warnings}});
 }
 
 }  // namespace petzval

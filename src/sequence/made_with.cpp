@@ -7,7 +7,7 @@
 #include "petzval/version.h"
 
 #include "base/content_hash.h"
-#include "sequence/words.h"
+#include "base/words.h"
 
 #include <cmath>
 #include <filesystem>

@@ -2,7 +2,7 @@
 #include "petzval/records.h"
 #include "petzval/shot_run.h"
 
-#include "sequence/record_json.h"
+#include "records/record_json.h"
 
 #include <filesystem>
 #include <utility>
@@ -18,7 +18,7 @@ Result<FrameCost> measure_frame(Session& session, ShotRunSettings settings, int 
     settings.existing = ExistingOutputs::Replace;
     const std::string output = at_frame(settings.output, frame);
     ShotRun run(session, std::move(settings), host);
-    const sequence::Stopwatch watch;
+    const records::Stopwatch watch;
     const auto made = run.make(frame);
     const double seconds = watch.seconds();
     std::error_code ignored;

@@ -3,11 +3,11 @@
 #include "petzval/frames.h"
 #include "petzval/look_json.h"
 
+#include "base/words.h"
 #include "sequence/focus_jumps.h"
 #include "sequence/frame_maker.h"
 #include "sequence/read_ahead.h"
 #include "sequence/shot_neighbours.h"
-#include "sequence/words.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -139,7 +139,7 @@ Result<FrameRecord> ShotRun::State::make(int frame, bool again) {
     auto record = sequence::make_frame(session, *of, host, context);
     if (!record) return record.error();
     jumps.look_at(frame, context.tracked && context.tracked->is_between_keys, *record);
-    return frame_record(sequence::as_text(*record));
+    return frame_record(records::as_text(*record));
 }
 
 void ShotRun::State::read_after(int frame) {
@@ -235,7 +235,7 @@ Result<FrameRecord> make_picture(Session& session, const ShotRunSettings& settin
     const FrameContext context;
     const auto record = sequence::make_frame(session, settings, host, context);
     if (!record) return record.error();
-    FrameRecord made = frame_record(sequence::as_text(*record));
+    FrameRecord made = frame_record(records::as_text(*record));
     if (made.state == FrameRecord::State::Kept && host.say)
         for (const std::string& line : damage_of_kept({settings.output})) host.say(Say::Warning, line);
     return made;

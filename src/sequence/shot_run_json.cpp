@@ -5,7 +5,7 @@
 #include "petzval/names.h"
 #include "petzval/shot_run.h"
 
-#include "sequence/record_json.h"
+#include "records/record_json.h"
 
 #include <cmath>
 #include <limits>
@@ -13,7 +13,7 @@
 namespace petzval {
 namespace {
 
-using sequence::Json;
+using records::Json;
 
 // Message about a wrong value; thrown and caught only in this file.
 struct WrongValue {

@@ -5,7 +5,7 @@
 #include "petzval/place.h"
 #include "petzval/views.h"
 
-#include "sequence/record_json.h"
+#include "records/record_json.h"
 #include "sequence/video.h"
 
 #include <algorithm>
@@ -44,7 +44,7 @@ public:
             std::copy_n(seen.row(y), width, cell.row(y + (height_ - height) / 2) + (width_ - width) / 2);
         if (Status done = place(frame, std::move(cell)); !done) return done.error();
         return frame_record(
-            sequence::as_text(sequence::Json{{"input", source.path}, {"warnings", shot->warnings}}));
+            records::as_text(records::Json{{"input", source.path}, {"warnings", shot->warnings}}));
     }
 
     Status add_black(int frame) { return place(frame, Picture(width_, height_)); }

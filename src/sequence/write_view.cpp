@@ -2,7 +2,7 @@
 
 #include "petzval/views.h"
 
-#include "sequence/words.h"
+#include "base/words.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,11 @@
 #include "petzval/records.h"
 
-#include "petzval/frame_loop.h"
 #include "petzval/look_json.h"
 #include "petzval/names.h"
 #include "petzval/version.h"
 
-#include "sequence/record_json.h"
-#include "sequence/words.h"
+#include "base/words.h"
+#include "records/record_json.h"
 
 #include <cmath>
 #include <sys/resource.h>
@@ -128,28 +127,6 @@ std::string finished_record(const std::string& record, int indent, const InWords
     return text;
 }
 
-FrameRecord frame_record(const std::string& record) {
-    const Json json = Json::parse(record);
-    FrameRecord of;
-    const auto text = [&](const char* key) {
-        const auto found = json.find(key);
-        return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();
-    };
-    const auto number = [&](const char* key) -> std::optional<double> {
-        const Json camera = json.value("camera", Json::object());
-        if (!camera.contains(key) || camera[key].is_null()) return std::nullopt;
-        return camera[key].is_number() ? camera[key].get<double>() : HUGE_VAL;
-    };
-    if (json.contains("skipped")) of.state = FrameRecord::State::Kept;
-    of.why = of.state == FrameRecord::State::Kept ? text("skipped") : text("made_again");
-    of.input = text("input"), of.output = text("output");
-    of.focus_m = number("focus_distance_m"), of.f_number = number("f_number");
-    for (const Json& line : json.value("warnings", Json::array()))
-        of.warnings.push_back(line.get<std::string>());
-    of.record = record;
-    return of;
-}
-
 std::size_t peak_memory_bytes() {
     struct rusage usage = {};
     getrusage(RUSAGE_SELF, &usage);
@@ -169,7 +146,7 @@ std::string camera_line(const FoundCamera& camera, ImageScale image_scale) {
     return line + (image_scale == ImageScale::ThinLens ? ", thin-lens image scale" : "");
 }
 
-namespace sequence {
+namespace records {
 
 void add_stages(Json& record, const std::vector<StageTime>& stages, double seconds) {
     double rest = seconds;
@@ -189,5 +166,5 @@ void add_stages(Json& record, const std::vector<StageTime>& stages, double secon
                                     {"multiply_adds", counted(stage.multiply_adds)}});
 }
 
-}  // namespace sequence
+}  // namespace records
 }  // namespace petzval

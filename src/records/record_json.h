@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace petzval::sequence {
+namespace petzval::records {
 
 using Json = nlohmann::ordered_json;
 
@@ -31,4 +31,4 @@ private:
     Clock::time_point start_ = Clock::now();
 };
 
-}  // namespace petzval::sequence
+}  // namespace petzval::records
