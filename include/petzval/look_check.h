@@ -24,4 +24,8 @@ struct LookCheck {
 // ignore focus.
 PETZVAL_API LookCheck check(const Look& look, const std::vector<std::string>& said = {});
 
+// LookCheck::idle of a look from a file, one line for all fields that have no effect for the same reason:
+// "FILE: lens.blades and lens.wave have no effect with engine gaussian". `file` begins each line.
+PETZVAL_API std::vector<std::string> idle_lines(const std::string& file, const std::vector<Error>& idle);
+
 }  // namespace petzval

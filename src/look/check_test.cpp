@@ -36,6 +36,21 @@ TEST(LookCheck, EachChoiceWithoutEffectIsASentenceThatBeginsWithItsField) {
     EXPECT_EQ(found[2].field, "lens.wave");
 }
 
+TEST(LookCheck, FieldsWithoutEffectForTheSameReasonShareALine) {
+    Look look;
+    look.engine = "gaussian";
+    look.quality = Quality::Draft;
+    look.lens.aperture.blades = 5;
+    look.lens.wave = true;
+    const auto found = check(look).idle;
+    ASSERT_EQ(found.size(), 3u);
+    const std::string why = "with engine gaussian, whose blur is always round";
+    EXPECT_EQ(idle_lines("a.json", {found[0], found[1], found[1]}),
+              (std::vector<std::string>{"a.json: quality has no effect with engine gaussian",
+                                        "a.json: lens.blades and lens.blades have no effect " + why}));
+    EXPECT_TRUE(idle_lines("a.json", {}).empty());
+}
+
 TEST(LookCheck, WhatWasSaidIsAChoiceAlsoAtItsDefault) {
     EXPECT_EQ(idle({}, {"glare.coating", "lens.blades"}),
               std::vector<std::string>{

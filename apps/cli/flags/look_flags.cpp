@@ -22,24 +22,6 @@ bool holds(const List& list, const Value& value) {
     return std::find(list.begin(), list.end(), value) != list.end();
 }
 
-// One sentence for all fields that have no effect for the same reason.
-std::vector<std::string> grouped(const std::string& file, const std::vector<Error>& idle) {
-    std::vector<std::pair<std::string, std::vector<std::string>>> by_reason;
-    for (const Error& one : idle) {
-        const std::string why = one.message.substr(one.field.size() + std::string(" has").size());
-        const auto same = [&](const auto& known) { return known.first == why; };
-        auto found = std::find_if(by_reason.begin(), by_reason.end(), same);
-        if (found == by_reason.end()) found = by_reason.insert(found, {why, {}});
-        found->second.push_back(one.field);
-    }
-    std::vector<std::string> sentences;
-    for (const auto& [why, fields] : by_reason) {
-        sentences.push_back(file + ": " + listed(fields));
-        sentences.back() += (fields.size() > 1 ? " have" : " has") + why;
-    }
-    return sentences;
-}
-
 // The path of a file, which the guard of the run learns, or a link, whose "#" is not a frame number.
 Result<std::string> parse_look(const std::string& text) {
     auto path = parse_text(text);
@@ -127,7 +109,7 @@ void LookFlags::settle() {
         if (holds(typed, idle.field)) throw refused(idle);
     }
     for (const std::string& file : input_files()) run_files().reads(file);
-    if (!file_.empty()) idle_in_file_ = grouped(file_, checked.idle);
+    if (!file_.empty()) idle_in_file_ = idle_lines(file_, checked.idle);
     if (!checked.possible) throw refused(checked.possible.error());
 }
 
