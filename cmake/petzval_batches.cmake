@@ -22,7 +22,7 @@ set(petzval_alone
     "src/lens_sheet/.*"
     "src/shot/(shot_camera|shot_test|seen_elsewhere_test|other_lamps_test)"
     "src/scene/((built_in/|gltf/)?[^_/]+|points/[^_]+)"
-    "apps/view/(state/fields|make/maker|lens/section_panel|panels/timeline_panel)"
+    "apps/view/(state/fields|make/maker|lens/section_panel|panels/(menu|timeline_panel))"
     "tests/conformance/(edges_test|layers_test)"
 )
 

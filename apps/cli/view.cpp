@@ -115,31 +115,6 @@ std::string command_line(const ViewFlags& flags, const view::Choice& choice, con
     return line;
 }
 
-// Runs the window's command with its session.
-Status save(DefocusFlags flags, Session& session, const view::Choice& choice, const std::string& output) {
-    const auto kind = kind_of_output(output);
-    if (!kind) return kind.error();
-    flags.output = output;
-    flags.run.json.clear();
-    flags.run.progress = ProgressMode::Off;
-    flags.focus = {};
-    const CameraChoice& camera = choice.camera;
-    flags.camera = {camera.focal_length_mm, camera.sensor_width_mm,
-                    camera.f_number,        camera.focus_distance_m,
-                    camera.image_scale,     camera.f_number ? std::nullopt : camera.aperture_diameter_mm};
-    flags.look.look() = choice.look;
-    flags.develop.exposure_stops = choice.develop.exposure_stops;
-    flags.develop.contrast = choice.develop.contrast;
-    flags.develop.tone = choice.develop.tone;
-    if (!choice.ocio || *kind != FileKind::Png) flags.ocio = {};
-    ShotRunSettings settings = flags.settings();
-    settings.source = view::with_input(settings.source, choice.input);
-    if (choice.frame) settings.source = at_frame(std::move(settings.source), *choice.frame);
-    const auto done = make_picture(session, settings, picture_host(flags));
-    if (!done) return Error{done.error().code, in_flags(done.error().message), done.error().field};
-    return Done{};
-}
-
 std::vector<view::FieldRow> field_rows() {
     std::vector<view::FieldRow> rows;
     for (const LookRow& row : look_rows()) {
@@ -181,21 +156,10 @@ Status open_window(const ViewFlags& flags) {
     if (flags.ocio.is_on())
         if (Status fine = flags.ocio.try_out(); !fine) return fine;
     view::Setup setup;
-    if (has_pattern(flags.input.path)) {
-        const auto there = FramePattern::find(flags.input.path).value()->frames_there();
-        if (!there) return there.error();
-        if (there->empty()) return Error{ErrorCode::InvalidFile, flags.input.path + ": no frame exists"};
-        setup.frames = *there;
-    }
     setup.scene = flags.scene;
     setup.choice.scene_camera = flags.scene_camera;
     if (flags.scene_size)
         setup.scene_width = flags.scene_size->first, setup.scene_height = flags.scene_size->second;
-    for (const SceneSummary& known : scene_list())
-        if (known.name == flags.scene) setup.scene_frames = known.frames;
-    // One that stands still has as many: its camera may move.
-    for (int frame = 0; !flags.scene.empty() && frame < std::max(48, setup.scene_frames); ++frame)
-        setup.frames.push_back(frame);
     const auto camera = camera_of(flags);
     if (!camera) return camera.error();
     setup.source = flags.input.source(*camera);
@@ -227,9 +191,11 @@ Status open_window(const ViewFlags& flags) {
     setup.command_line = [&](const view::Choice& choice, const std::string& output) {
         return command_line(flags, choice, output);
     };
-    setup.save = [&](Session& session, const view::Choice& choice, const std::string& output) {
-        return save(static_cast<const DefocusFlags&>(flags), session, choice, output);
-    };
+    DefocusFlags quiet = flags;  // a picture that is saved has no bar on the terminal
+    quiet.run.progress = ProgressMode::Off;
+    quiet.output = "out.exr";  // of the example in a message
+    setup.run = quiet.settings();
+    setup.host = picture_host(quiet);
     if (flags.ocio.is_on())
         setup.ocio_codes = [&](View<const Rgba> light) { return ocio_codes(flags.ocio, light); };
     return view::run(setup);

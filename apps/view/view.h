@@ -1,5 +1,5 @@
 // The window of `petzval view`: what it is given, and the door to it. Below this line it knows
-// include/petzval/ alone; ways that need more (command lines, saving) are handed to it.
+// include/petzval/ alone; command lines are handed to it.
 #pragma once
 
 #include "petzval/develop.h"
@@ -8,6 +8,7 @@
 #include "petzval/run_files.h"
 #include "petzval/session.h"
 #include "petzval/shot.h"
+#include "petzval/shot_run.h"
 
 #include <functional>
 #include <memory>
@@ -55,7 +56,7 @@ struct Setup {
     ShotSource source;
     std::string scene;  // a built-in scene in place of files; its source.path is only what it is called
     int scene_width = 480, scene_height = 270, scene_frames = 1;
-    std::vector<int> frames;  // that are there, where names of the source's files hold a place for a number
+    std::vector<int> frames;  // filled by run()
     Choice choice;
     std::optional<PixelPosition> focus_at;
     std::optional<WorldPoint> focus_point;
@@ -70,10 +71,12 @@ struct Setup {
     std::shared_ptr<Session> session;
     std::shared_ptr<Session>
         cpu_session;  // to compare with, where the session's device is another; else null
-    // The command that makes this frame as that file; and the same, done. Called by another thread than the
-    // window's.
+    // The command that makes this frame as that file.
     std::function<std::string(const Choice&, const std::string& output)> command_line;
-    std::function<Status(Session&, const Choice&, const std::string& output)> save;
+    // Settings of a picture that is saved, before the choices made in the window, and callbacks while it is
+    // made, by another thread than the window's.
+    ShotRunSettings run;
+    ShotRunHost host;
     // Pictures, lenses and the rest that the command line names: nothing that is saved may replace one.
     RunFiles files;
     // Exposed scene-linear light to a display's codes by OpenColorIO; null: not asked for.

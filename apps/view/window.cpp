@@ -4,6 +4,7 @@
 #include "commands.h"
 #include "lens_panel.h"
 #include "panels.h"
+#include "save.h"
 #include "script.h"
 #include "texture.h"
 #include "view.h"
@@ -372,11 +373,12 @@ Status run(const Setup& setup) {
         if (!read) return read.error();
         script = std::move(*read);
     }
+    Setup complete = setup;
+    if (Status found = find_frames(complete); !found) return found;
     Window window;
     if (Status open = window.open(setup); !open) return open;
-    Setup with_context = setup;
-    if (setup.scene == "hexadrive") with_context.gl_context = window.second_context();
-    return Loop(window.get(), with_context, std::move(script))();
+    if (setup.scene == "hexadrive") complete.gl_context = window.second_context();
+    return Loop(window.get(), complete, std::move(script))();
 }
 
 }  // namespace petzval::view

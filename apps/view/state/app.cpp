@@ -6,6 +6,7 @@
 
 #include "articles.h"
 #include "input.h"
+#include "save.h"
 
 #include <algorithm>
 #include <cmath>
@@ -319,8 +320,8 @@ void App::save(const std::string& name) {
             return save_result(shot->shot, camera, choice, *session, path);
         });
     }
-    start_saving(path, [save = setup_.save, session = setup_.session, choice = full_choice(), path] {
-        return save(*session, choice, path);
+    start_saving(path, [setup = setup_, choice = full_choice(), path] {
+        return save_picture(*setup.session, setup, choice, path);
     });
 }
 

@@ -1,0 +1,63 @@
+#include "save.h"
+
+#include "petzval/display_files.h"
+#include "petzval/frames.h"
+#include "petzval/scene.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace petzval::view {
+
+Result<ShotRunSettings> settings_to_save(ShotRunSettings settings, const Choice& choice,
+                                         const std::string& output) {
+    const auto kind = kind_of_output(output);
+    if (!kind) return kind.error();
+    settings.output = output;
+    settings.focus_pixel.reset();
+    settings.focus_point.reset();
+    settings.look = choice.look;
+    settings.display.exposure_stops = choice.develop.exposure_stops;
+    settings.display.contrast = choice.develop.contrast;
+    settings.display.tone = choice.develop.tone;
+    if (!choice.ocio || *kind != FileKind::Png) settings.display_view = settings.display_space = "";
+    settings.source = with_input(std::move(settings.source), choice.input);
+    settings.source.camera = choice.camera;
+    if (choice.camera.f_number) settings.source.camera.aperture_diameter_mm.reset();
+    if (choice.frame) settings.source = at_frame(std::move(settings.source), *choice.frame);
+    return settings;
+}
+
+Status save_picture(Session& session, const Setup& setup, const Choice& choice, const std::string& output) {
+    const auto settings = settings_to_save(setup.run, choice, output);
+    if (!settings) return settings.error();
+    ShotRunHost host = setup.host;
+    if (settings->display_view.empty()) host.to_display = {};
+    const auto done = make_picture(session, *settings, host);
+    if (done) return Done{};
+    Error error = done.error();
+    if (host.in_words) error.message = host.in_words(error.message);
+    return error;
+}
+
+Status find_frames(Setup& setup) {
+    if (!setup.scene.empty()) {
+        constexpr int kFewest = 48;
+        for (const SceneSummary& known : scene_list())
+            if (known.name == setup.scene) setup.scene_frames = known.frames;
+        setup.frames.resize(std::size_t(std::max(kFewest, setup.scene_frames)));
+        std::iota(setup.frames.begin(), setup.frames.end(), 0);
+        return Done{};
+    }
+    const auto pattern = FramePattern::find(setup.source.path);
+    if (!pattern) return pattern.error();
+    if (!*pattern) return Done{};
+    const auto there = (*pattern)->frames_there();
+    if (!there) return there.error();
+    if (there->empty()) return Error{ErrorCode::InvalidFile, setup.source.path + ": no frame exists"};
+    setup.frames = *there;
+    return Done{};
+}
+
+}  // namespace petzval::view
