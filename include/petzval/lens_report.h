@@ -17,6 +17,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace petzval {
@@ -141,5 +142,36 @@ PETZVAL_API Picture exposed_to_white(Picture picture);
 // The same as a PNG; without a tone curve unless one is chosen. Errors: OutputFailed.
 PETZVAL_API Status write_lens_view(const std::string& path, Picture picture, const DisplayChoice& display,
                                    bool overwrite);
+
+// One kernel of a lens. field_x, field_y and size_px are those of lens_point_spread().
+struct LensDiscSettings {
+    double coc_radius_px = 20;
+    double field_x = 0, field_y = 0;
+    int size_px = 0;
+    bool raw = false;
+};
+
+// A kernel, a bokeh texture or a volume as a file, as petzval lens psf, table and volume write it.
+struct LensPictureFile {
+    Look look = {};                     // its lens, with the images of apertures and kernels that it names
+    CameraChoice camera = {};           // numbers that are given replace the lens's own
+    int width_px = 1920;                // of the picture that the camera takes
+    std::optional<int> height_px = {};  // empty: 9/16 of the width
+    std::string output = {};            // .exr: the numbers; .png: a picture for displays
+    DisplayChoice display = {};         // of a PNG
+    bool overwrite = true;              // false: an output that exists is an error
+    std::size_t max_memory_bytes = 0;   // 0: no limit
+    std::variant<LensDiscSettings, BokehTextureSettings, BokehVolumeSettings> picture = {};
+};
+struct LensPictureMade {
+    std::string lens;     // the lens that was used, in words
+    Camera camera;        // the lens was mounted on it
+    std::string warning;  // empty: none
+    std::string record;   // that of `petzval lens psf --json`, `lens table` or `lens volume`
+};
+// Calls `drawn` before the file is written; the record is empty then. Errors: those of read_lens_images(),
+// Lens::open(), mounted_on() and of the kernels; OutOfMemory; OutputFailed.
+PETZVAL_API Result<LensPictureMade> make_lens_picture(
+    LensPictureFile file, const std::function<void(const LensPictureMade&)>& drawn = {});
 
 }  // namespace petzval

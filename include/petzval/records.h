@@ -22,6 +22,8 @@ using InWords = std::function<std::string(const std::string&)>;
 // A number as JSON. NaN is null; infinity, which JSON does not have, is a text that finished_record()
 // replaces.
 PETZVAL_API std::string record_of_number(double value);
+// JSON of the library, where infinity is 1e999, as a part of a record. Requires: it is JSON.
+PETZVAL_API std::string record_of_json(const std::string& json);
 // A record with every key that it always contains, all empty.
 PETZVAL_API std::string empty_record(const std::string& verb);
 PETZVAL_API std::string record_of_camera(const FoundCamera& camera, ImageScale image_scale);

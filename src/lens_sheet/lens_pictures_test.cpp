@@ -3,6 +3,7 @@
 #include "base/temporary_folder.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include <gtest/gtest.h>
 
@@ -80,6 +81,47 @@ TEST(LensViewFileTest, OneFileIsSeenThroughEachLens) {
     EXPECT_TRUE(std::any_of(said.begin(), said.end(), is_of_tessar)) << "f/1 is wider than the lens";
     file.sheet.lenses = {"none"};
     EXPECT_FALSE(write_lens_view_sheet(file, {}, warn));
+}
+
+TEST(LensPicture, IsWrittenInBothFormatsWithItsRecord) {
+    const test::TemporaryFolder folder;
+    LensPictureFile file;
+    file.look.lens.name = "doublet";
+    file.picture = LensDiscSettings{.coc_radius_px = 6, .size_px = 9};
+    for (const char* name : {"disc.exr", "disc.png"}) {
+        file.output = folder / name;
+        bool was_drawn = false;
+        const auto made = make_lens_picture(file, [&](const LensPictureMade& drawn) {
+            was_drawn = true;
+            EXPECT_FALSE(std::filesystem::exists(file.output)) << "said before it is written";
+            EXPECT_NE(drawn.warning.find("outside of disc.size_px 9"), std::string::npos) << drawn.warning;
+        });
+        ASSERT_TRUE(made) << made.error().message;
+        EXPECT_TRUE(was_drawn);
+        EXPECT_TRUE(std::filesystem::exists(file.output));
+        EXPECT_NE(made->record.find("\"verb\":\"lens psf\""), std::string::npos) << made->record;
+        EXPECT_NE(made->record.find("\"size\":9"), std::string::npos) << made->record;
+    }
+    file.output = folder / "volume.exr";
+    file.picture = BokehVolumeSettings{.slices = 2, .side_px = 16};
+    const auto volume = make_lens_picture(file);
+    ASSERT_TRUE(volume);
+    EXPECT_NE(volume->record.find("\"verb\":\"lens volume\""), std::string::npos);
+}
+
+TEST(LensPicture, NothingIsWrittenForALensOrAFormatThatIsNone) {
+    const test::TemporaryFolder folder;
+    LensPictureFile file;
+    file.look.lens.name = "no such lens";
+    file.output = folder / "disc.exr";
+    EXPECT_FALSE(make_lens_picture(file));
+    file.look.lens.name = "doublet";
+    file.output = folder / "disc.txt";
+    EXPECT_FALSE(make_lens_picture(file));
+    file.output = folder / "disc.exr";
+    file.max_memory_bytes = 1 << 10;
+    EXPECT_EQ(make_lens_picture(file).error().code, ErrorCode::OutOfMemory);
+    EXPECT_FALSE(std::filesystem::exists(folder / "disc.exr"));
 }
 
 }  // namespace

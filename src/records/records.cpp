@@ -56,6 +56,22 @@ void put_in_words(Json& record, const InWords& in_words) {
 
 std::string record_of_number(double value) { return dumped(number_json(value)); }
 
+std::string record_of_json(const std::string& json) {
+    std::string marked;
+    bool in_string = false;
+    for (std::size_t i = 0; i < json.size(); ++i) {
+        if (json[i] == '"' && (i == 0 || json[i - 1] != '\\')) in_string = !in_string;
+        const bool minus = json.compare(i, 6, "-1e999") == 0;
+        if (!in_string && (minus || json.compare(i, 5, "1e999") == 0)) {
+            marked += record_of_number(minus ? -HUGE_VAL : HUGE_VAL);
+            i += minus ? 5 : 4;
+        } else {
+            marked += json[i];
+        }
+    }
+    return marked;
+}
+
 std::string empty_record(const std::string& verb) {
     return dumped(
         {{"schema", kSchema},

@@ -5,29 +5,13 @@
 #include "flags/fields.h"
 #include "output.h"
 
-#include <cmath>
-
 namespace petzval::cli {
 
 Json new_report(const std::string& verb) { return Json::parse(empty_record(verb)); }
 
 Json number(double value) { return Json::parse(record_of_number(value)); }
 
-Json json_of(const std::string& text) {
-    std::string marked;
-    bool in_string = false;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        if (text[i] == '"' && (i == 0 || text[i - 1] != '\\')) in_string = !in_string;
-        const bool minus = text.compare(i, 6, "-1e999") == 0;
-        if (!in_string && (minus || text.compare(i, 5, "1e999") == 0)) {
-            marked += record_of_number(minus ? -HUGE_VAL : HUGE_VAL);
-            i += minus ? 5 : 4;
-        } else {
-            marked += text[i];
-        }
-    }
-    return Json::parse(marked);
-}
+Json json_of(const std::string& text) { return Json::parse(record_of_json(text)); }
 
 Json camera_json(const FoundCamera& camera, ImageScale image_scale) {
     return Json::parse(record_of_camera(camera, image_scale));

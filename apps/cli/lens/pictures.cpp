@@ -3,16 +3,15 @@
 #include "petzval/lens_report.h"
 
 #include "console/console.h"
-#include "console/interrupt.h"
 #include "flags/look_rows.h"
 #include "flags/run_flags.h"
 #include "flags/values.h"
+#include "frames.h"
 #include "input.h"
 #include "lens/mount.h"
 #include "output.h"
 #include "verbs.h"
 
-#include <functional>
 #include <memory>
 #include <utility>
 
@@ -55,120 +54,43 @@ struct PictureFlags : MountFlags {
     }
 };
 
-// The picture that a verb draws, before it is written.
-struct Drawn {
-    std::string lens, warning = {};
-    Json report = {};                        // what is the verb's own in it
-    Picture view = {};                       // to be looked at
-    std::function<Status()> write_exr = {};  // the numbers
-};
-
-// Mounts the lens, draws, writes and reports.
-Status make(PictureFlags& flags, const std::string& verb,
-            const std::function<Result<Drawn>(const MountedLens&)>& draw) {
-    const Stopwatch watch;
+// Draws, writes and reports.
+Status make(PictureFlags& flags, decltype(LensPictureFile::picture) picture) {
     if (flags.overwrite.skips({flags.output})) return Done{};
-    const auto mounted = flags.open();
-    if (!mounted) return mounted.error();
-    auto drawn = draw(*mounted);
-    if (!drawn) return drawn.error();
-    note(drawn->lens + " (" + camera_text(mounted->mount.camera) + ")");
-    if (!drawn->warning.empty()) warning(drawn->warning);
-    const Status done = flags.is_png() ? write_lens_view(flags.output, std::move(drawn->view), flags.develop,
-                                                         !flags.overwrite.no_clobber)
-                                       : drawn->write_exr();
-    if (!done) return done;
+    LensPictureFile file{flags.look.look(), flags.camera.choice(), flags.width_px, flags.height_px};
+    file.output = flags.output;
+    file.display = flags.develop;
+    file.overwrite = !flags.overwrite.no_clobber;
+    file.max_memory_bytes = process_memory_bytes(0);
+    file.picture = std::move(picture);
+    ShownProgress shown(flags.run, "lens table");
+    if (auto* table = std::get_if<BokehTextureSettings>(&file.picture)) {
+        table->progress = shown.progress;
+        table->cancelled = shown.host.cancelled;
+    }
+    const auto made = make_lens_picture(std::move(file), [&](const LensPictureMade& drawn) {
+        shown.host.say(Say::Note, drawn.lens + " (" + camera_text(drawn.camera) + ")");
+        if (!drawn.warning.empty()) shown.host.say(Say::Warning, drawn.warning);
+    });
+    if (!made) return made.error();
     note("wrote " + flags.output);
-    if (flags.run.json.empty()) return Done{};
-    Json report = new_report(verb);
-    report.update(drawn->report);
-    report["output"] = flags.output;
-    report["lens"] = lens_json(flags.look.look(), drawn->lens);
-    report["camera"] = mount_json(mounted->mount);
-    return write_report(finished(std::move(report), watch), flags.run.json);
+    return flags.run.json.empty() ? Status(Done{}) : write_report(Json::parse(made->record), flags.run.json);
 }
 
 struct PsfFlags : PictureFlags {
-    double coc_radius_px = 20;
+    LensDiscSettings disc;
     Interval field;
-    int size_px = 0;
 };
-
-Result<Drawn> draw_psf(const PsfFlags& flags, const MountedLens& mounted) {
-    const auto& [mount, lens] = mounted;
-    const Status fits =
-        lens_disc_fits(lens, mount, flags.coc_radius_px, flags.size_px, process_memory_bytes(0));
-    if (!fits) return fits.error();
-    auto disc = lens_point_spread(lens, mount, flags.coc_radius_px, flags.field.low, flags.field.high,
-                                  flags.size_px, flags.raw);
-    if (!disc) return disc.error();
-    Drawn drawn{disc->lens};
-    if (disc->lost_share > 1e-3)
-        drawn.warning = plain(100 * disc->lost_share, 3) + " % of the light falls outside of --size " +
-                        plain(flags.size_px);
-    drawn.report = {{"defocus_px", flags.coc_radius_px},
-                    {"field", {flags.field.low, flags.field.high}},
-                    {"size", disc->weights.width()},
-                    {"lost_share", disc->lost_share},
-                    {"raw", flags.raw}};
-    if (flags.is_png()) drawn.view = std::move(disc->weights);
-    drawn.write_exr = [&flags, disc = std::make_shared<LensDisc>(std::move(*disc))] {
-        return write_lens_disc(flags.output, *disc, flags.coc_radius_px, flags.field.low, flags.field.high,
-                               !flags.overwrite.no_clobber);
-    };
-    return drawn;
-}
 
 struct TableFlags : PictureFlags {
     BokehTextureSettings table;
     bool even = false;
 };
 
-Result<Drawn> draw_table(TableFlags& flags, const MountedLens& mounted) {
-    const auto& [mount, lens] = mounted;
-    const Status fits = bokeh_texture_fits(lens, mount, flags.table, process_memory_bytes(0));
-    if (!fits) return fits.error();
-    flags.table.raw = flags.raw;
-    flags.table.dense_near_focus = !flags.even;
-    flags.table.cancelled = [] { return interrupted_by() != 0; };
-    auto texture = [&, &lens = lens, &mount = mount] {
-        ProgressLine progress(flags.run.progress, flags.run.quiet, "lens table");
-        flags.table.progress = [&](double share) { return progress(share); };
-        return bokeh_texture(lens, mount, flags.table);
-    }();
-    if (!texture) return texture.error();
-    Drawn drawn{texture->lens};
-    drawn.report = {{"columns", flags.table.columns},
-                    {"rows", texture->energy.height()},
-                    {"rows_per_px", flags.table.rows_per_px},
-                    {"coc_radius_px", texture->coc_radius_px}};
-    if (flags.is_png()) drawn.view = std::move(texture->view);
-    drawn.write_exr = [&flags, at = mount, texture = std::make_shared<BokehTexture>(std::move(*texture))] {
-        return write_bokeh_texture(flags.output, *texture, flags.table, at, !flags.overwrite.no_clobber);
-    };
-    return drawn;
-}
-
 struct VolumeFlags : PictureFlags {
     BokehVolumeSettings volume;
     Interval field;
 };
-
-Result<Drawn> draw_volume(VolumeFlags& flags, const MountedLens& mounted) {
-    const auto& [mount, lens] = mounted;
-    if (Status fits = bokeh_volume_fits(flags.volume, process_memory_bytes(0)); !fits) return fits.error();
-    flags.volume.field_x = flags.field.low;
-    flags.volume.field_y = flags.field.high;
-    auto volume = bokeh_volume(lens, mount, flags.volume);
-    if (!volume) return volume.error();
-    Drawn drawn{volume->lens};
-    drawn.report = {{"coc_radius_px", volume->coc_radius_px}, {"size", volume->slices[0].width()}};
-    if (flags.is_png()) drawn.view = stacked_slices(*volume);
-    drawn.write_exr = [&flags, at = mount, volume = std::make_shared<BokehVolume>(std::move(*volume))] {
-        return write_bokeh_volume(flags.output, *volume, at, !flags.overwrite.no_clobber);
-    };
-    return drawn;
-}
 
 bool shapes_the_pupil(const LookRow& row) {
     const std::string heading = row.heading;
@@ -191,19 +113,18 @@ void add_psf(Verb& lens, Action& chosen) {
     flags->add_lens_to(verb);
     FlagGroup(verb, "Kernel")
         .value("--defocus", "PX", "signed radius of the circle of confusion, + behind focus (default 20)",
-               parse_number, flags->coc_radius_px)
+               parse_number, flags->disc.coc_radius_px)
         .value("--field", "X,Y", "place in the picture, in half diagonals from the middle, x right, y up",
                parse_range, flags->field)
         .value("--size", "PX", "side of the output, made odd (default: as large as the kernel)",
-               parse_size_px, flags->size_px);
+               parse_size_px, flags->disc.size_px);
     flags->add_output_to(verb, false);
     when_typed(verb, [flags, &verb, &chosen] {
         flags->check(verb);
         refuse_on_axis(*flags, flags->field);
-        chosen = [flags] {
-            return make(*flags, "lens psf",
-                        [&](const MountedLens& mounted) { return draw_psf(*flags, mounted); });
-        };
+        flags->disc.field_x = flags->field.low, flags->disc.field_y = flags->field.high;
+        flags->disc.raw = flags->raw;
+        chosen = [flags] { return make(*flags, flags->disc); };
     });
 }
 
@@ -228,10 +149,9 @@ void add_table(Verb& lens, Action& chosen) {
         flags->check(verb);
         if (flags->height_px)
             throw UsageError("--height has no effect in lens table, which is of the picture's middle");
-        chosen = [flags] {
-            return make(*flags, "lens table",
-                        [&](const MountedLens& mounted) { return draw_table(*flags, mounted); });
-        };
+        flags->table.raw = flags->raw;
+        flags->table.dense_near_focus = !flags->even;
+        chosen = [flags] { return make(*flags, flags->table); };
     });
 }
 
@@ -256,10 +176,8 @@ void add_volume(Verb& lens, Action& chosen) {
         if (flags->raw)
             throw UsageError("--raw has no effect in lens volume; lens psf and lens table have it");
         refuse_on_axis(*flags, flags->field);
-        chosen = [flags] {
-            return make(*flags, "lens volume",
-                        [&](const MountedLens& mounted) { return draw_volume(*flags, mounted); });
-        };
+        flags->volume.field_x = flags->field.low, flags->volume.field_y = flags->field.high;
+        chosen = [flags] { return make(*flags, flags->volume); };
     });
 }
 
