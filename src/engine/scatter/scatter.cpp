@@ -11,9 +11,9 @@
 #include "engine/samples/lamps.h"
 #include "engine/samples/layer_shares.h"
 #include "engine/samples/outlines/hidden_outlines.h"
-#include "engine/samples/silhouettes/count.h"
 #include "engine/scatter/guessed_shares.h"
 #include "engine/scatter/layer_highlights.h"
+#include "engine/scatter/peak_memory.h"
 #include "engine/scatter/plan_reader.h"
 #include "engine/waist/stopwatch.h"
 
@@ -59,23 +59,6 @@ constexpr std::size_t kFixedWorkingBytes = std::size_t(56) << 20;
 // Strips of wide frames that are narrower are mostly halo.
 constexpr std::size_t kDefaultWorkingBytes = std::size_t(2000) << 20;
 
-// Peak memory of a flat picture in one strip, fitted to whole commands: 12 scenes at 1920 x 1080 and 3840 x
-// 2160 (docs/results/memory.md). The estimate for several strips, and for deep pictures, is less
-// certain and larger.
-std::size_t bytes_at_once(const EngineView& input, bool has_spare) {
-    constexpr double kPerPixel = 46, kPerSilhouettePixel = 280, kPerHidingPixel = 430, kFixed = 43 << 20,
-                     kAberrated = 28 << 20;
-    const bool flat = input.samples.deep.empty() && input.samples.plate.empty() &&
-                      input.samples.layers.empty() && input.samples.holdout.empty();
-    if (!flat) return std::numeric_limits<std::size_t>::max();
-    const Silhouettes silhouettes = silhouettes_of(input.samples.coc_px, *input.services.workers);
-    const double per_pixel = kPerPixel + (has_spare ? 0 : sizeof(Rgba)) +
-                             kPerSilhouettePixel * silhouettes.at + kPerHidingPixel * silhouettes.hiding;
-    const double fixed = kFixed + (input.lens.level(0).reach_px(0) > 0.5 ? kAberrated : 0);
-    return std::size_t(per_pixel * double(input.width()) * double(input.height()) + fixed) +
-           input.services.beside_bytes;
-}
-
 Error too_little(const EngineView& input, std::size_t held, std::size_t of_strip, std::size_t at_once,
                  std::size_t rows) {
     const auto mib = [](std::size_t bytes) { return std::to_string(bytes >> 20); };
@@ -91,7 +74,7 @@ Error too_little(const EngineView& input, std::size_t held, std::size_t of_strip
 }
 
 Result<StripPlan> plan_strips(const EngineView& input, const LevelRule& rule, const ScatterKernels& kernels,
-                              bool has_spare) {
+                              const HighlightSplit& split, bool has_spare) {
     const double largest =
         std::max(std::abs(input.samples.nearest_coc_px), std::abs(input.samples.farthest_coc_px));
     const int coarsest = kernels.coarsest_for(int(std::ceil(rule.position(float(largest)))));
@@ -120,7 +103,8 @@ Result<StripPlan> plan_strips(const EngineView& input, const LevelRule& rule, co
     const double bytes_per_sample = double(kBytesPerSample) * (input.samples.layers.empty() ? 1 : 3);
     const auto row_bytes = std::size_t((double(kBytesPerPixel) + bytes_per_sample * samples) * input.width());
     const std::size_t rows = working / row_bytes;
-    const std::size_t at_once = input.services.max_memory_bytes > 0 ? bytes_at_once(input, has_spare) : 0;
+    const std::size_t at_once =
+        input.services.max_memory_bytes > 0 ? bytes_at_once(input, rule, split, has_spare) : 0;
     if (rows >= std::size_t(input.height()) || at_once < input.services.max_memory_bytes) {
         plan.rows = whole_units(input.height());
         return plan;
@@ -153,7 +137,9 @@ public:
           split_(frame, bright_rule(frame)) {
         watch_.lap("split", bytes_of(frame.samples.colour) + bytes_of(frame.samples.coc_px));
     }
-    Result<StripPlan> strips() const { return plan_strips(frame_, rule_, *kernels_, !spare_.colour.empty()); }
+    Result<StripPlan> strips() const {
+        return plan_strips(frame_, rule_, *kernels_, split_, !spare_.colour.empty());
+    }
     // Memory of the whole frame; one strip may reuse that of the colour, which is no longer needed.
     Picture memory_for_result(bool one_strip) {
         if (one_strip && spare_.colour.rect() == frame_.samples.colour.rect())
