@@ -33,7 +33,7 @@ struct Strips {
 // Bytes of cells, light, blocks and hidden surfaces, for each pixel of a strip. Measured on whole commands
 // for flat pictures (docs/results/memory.md); others are less certain.
 double working_bytes_per_pixel(const EngineView& input) {
-    constexpr double kPerPixel = 17, kPerSilhouettePixel = 90, kMost = 106;
+    constexpr double kPerPixel = 17, kPerSilhouettePixel = 260, kMost = 106;
     const bool flat = input.samples.deep.empty() && input.samples.plate.empty() &&
                       input.samples.layers.empty() && input.samples.holdout.empty();
     if (!flat || input.services.max_memory_bytes == 0) return kMost;
