@@ -58,36 +58,33 @@ void KnownSurfaces::find_lights(Workers& workers) {
     });
 }
 
-CutEdges::Point KnownSurfaces::behind(Place at, Direction outwards, float distance_px) {
-    return {at.x - nearest_pixel(distance_px * outwards.x), at.y - nearest_pixel(distance_px * outwards.y)};
-}
-
-Rgba KnownSurfaces::going_on(Place from, Direction outwards, float distance_px) const {
-    const Rgba own = seen_through_blur(from, outwards, distance_px);
+Rgba KnownSurfaces::going_on(Place from, Direction outwards, float distance_px,
+                             const CutEdges::Around& edges) const {
+    const Rgba own = seen_through_blur(from, outwards, edges);
     if (white_ <= 0) return own;
     const float light = std::max(light_of(own), light_of(colour(from.x, from.y)));
     const float falls = above(light, completion_model.light * white_);
-    const Rgba dim = falls < 1 ? among_lights(own, from, outwards, distance_px) : own;
+    const Rgba dim = falls < 1 ? among_lights(own, from, outwards, distance_px, edges) : own;
     if (falls <= 0) return dim;
     constexpr float kAnyLight = std::numeric_limits<float>::infinity();
-    return dim * (1 - falls) + falls * shown(from, outwards, distance_px, kAnyLight, own);
+    return dim * (1 - falls) + falls * shown(from, outwards, distance_px, kAnyLight, own, edges);
 }
 
 // A dark pixel only a little darker than the sign around it is the gap between two letters: it does not end
 // the sign, and which of the two was last at the edge does not change the result. A pixel far darker is the
 // wall beside a lit window.
-Rgba KnownSurfaces::among_lights(Rgba own, Place from, Direction outwards, float distance_px) const {
+Rgba KnownSurfaces::among_lights(Rgba own, Place from, Direction outwards, float distance_px,
+                                 const CutEdges::Around& edges) const {
     const float least = completion_model.gap_lit * white_;
     const float usual = completion_model.gap_contrast * light_of(own);
     if (usual <= least || !lights_around(from)) return own;  // too dark to lie between letters
-    const Rgba all = shown(from, outwards, distance_px, usual, own);
+    const Rgba all = shown(from, outwards, distance_px, usual, own, edges);
     const float lit = above(light_of(all), least);
     return own * (1 - lit) + lit * all;
 }
 
 // The blur hides detail: the mean over a part of that blur, across and farther outwards.
-Rgba KnownSurfaces::seen_through_blur(Place at, Direction outwards, float distance_px) const {
-    const CutEdges::Point hidden = behind(at, outwards, distance_px);
+Rgba KnownSurfaces::seen_through_blur(Place at, Direction outwards, const CutEdges::Around& edges) const {
     const float part_px = completion_model.blur_mean * std::abs(at.coc_px);
     Rgba sum = colour(at.x, at.y);
     float total = 1;
@@ -97,7 +94,7 @@ Rgba KnownSurfaces::seen_through_blur(Place at, Direction outwards, float distan
                       dy = nearest_pixel(out * outwards.y + aside * outwards.x);
             const int x = at.x + dx, y = at.y + dy;
             if ((dx == 0 && dy == 0) || !shows(x, y, at.coc_px)) continue;
-            const float weight = edges_.passes({x, y}, hidden, at.coc_px);
+            const float weight = edges.passes({x, y}, at.coc_px);
             sum += weight * colour(x, y);
             total += weight;
         }
@@ -107,12 +104,11 @@ Rgba KnownSurfaces::seen_through_blur(Place at, Direction outwards, float distan
 // The mean of the visible surface at r distances, with density 1/(1 + r)^2: a thing visible for a width w
 // gets the share w/(w + distance). This assumes that things of all widths are equally common and cut
 // anywhere. Pixels beyond a continuing edge do not count.
-Rgba KnownSurfaces::shown(Place from, Direction outwards, float distance_px, float usual,
-                          Rgba otherwise) const {
+Rgba KnownSurfaces::shown(Place from, Direction outwards, float distance_px, float usual, Rgba otherwise,
+                          const CutEdges::Around& edges) const {
     constexpr int kParts = 8;  // parts of equal probability
     Rgba sum;
     float total = 0;
-    const CutEdges::Point hidden = behind(from, outwards, distance_px);
     for (int part = 0; part < kParts; ++part) {
         const float nearer = (float(part) + 0.5f) / kParts;
         const float far = distance_px * nearer / (1 - nearer);
@@ -121,7 +117,7 @@ Rgba KnownSurfaces::shown(Place from, Direction outwards, float distance_px, flo
         if (!one_surface(radii_(x, y), from.coc_px)) continue;
         const Rgba light = comparable(colour(x, y));
         const float excess = light_of(light) / usual, excess2 = excess * excess;
-        const float weight = edges_.passes({x, y}, hidden, from.coc_px) / (1 + excess2 * excess2);
+        const float weight = edges.passes({x, y}, from.coc_px) / (1 + excess2 * excess2);
         sum += weight * light;
         total += weight;
     }

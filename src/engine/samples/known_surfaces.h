@@ -59,21 +59,20 @@ public:
     // Colour of the surface at `from`, continued against `outwards` over `distance_px` into the hidden area.
     // Bright light is reduced towards the light of the surface beyond it (outwards from here), and more so if
     // its visible part is short compared with the distance. So a light fades as it slips behind an edge.
-    Rgba going_on(Place from, Direction outwards, float distance_px) const;
-    // Weight of the colour there for the hidden pixel (x, y), 0…1: small behind an edge that continues
-    // between them.
-    float passes(Place from, int x, int y) const {
-        return edges_.passes({from.x, from.y}, {x, y}, from.coc_px);
-    }
+    // edges: around the hidden pixel.
+    Rgba going_on(Place from, Direction outwards, float distance_px, const CutEdges::Around& edges) const;
+    // Edges of the picture that continue between visible pixels and the hidden pixel (x, y).
+    CutEdges::Around edges_around(int x, int y) const { return edges_.around({x, y}); }
 
 private:
-    static CutEdges::Point behind(Place at, Direction outwards, float distance_px);
     void find_lights(Workers& workers);
     bool lights_around(Place at) const { return lights_around_(at.x / kBlock, at.y / kBlock) != 0; }
-    Rgba seen_through_blur(Place at, Direction outwards, float distance_px) const;
-    Rgba among_lights(Rgba own, Place from, Direction outwards, float distance_px) const;
+    Rgba seen_through_blur(Place at, Direction outwards, const CutEdges::Around& edges) const;
+    Rgba among_lights(Rgba own, Place from, Direction outwards, float distance_px,
+                      const CutEdges::Around& edges) const;
     // Pixels brighter than `usual` get a small weight.
-    Rgba shown(Place from, Direction outwards, float distance_px, float usual, Rgba otherwise) const;
+    Rgba shown(Place from, Direction outwards, float distance_px, float usual, Rgba otherwise,
+               const CutEdges::Around& edges) const;
 
     const LitPicture& picture_;
     const Mixtures& mixtures_;

@@ -24,7 +24,8 @@ float light_behind(int columns_of_sign, float distance_px, float white = 1, int 
     const Mixtures none;
     const LitPicture picture{colour, {}};
     const KnownSurfaces known(picture, coc, none, white, one_thread());
-    return luminance(known.going_on({kEdge - 1, kHeight / 2, 5}, kOutwards, distance_px));
+    return luminance(
+        known.going_on({kEdge - 1, kHeight / 2, 5}, kOutwards, distance_px, known.edges_around(0, 0)));
 }
 
 const float kWhole = luminance({kSign, 0.5f * kSign, kSign, 1});
@@ -38,7 +39,8 @@ float stripes_behind(float coc_px) {
     const Mixtures none;
     const LitPicture picture{colour, {}};
     const KnownSurfaces known(picture, coc, none, 1, one_thread());
-    return luminance(known.going_on({kEdge - 1, kHeight / 2, coc_px}, kOutwards, 4));
+    return luminance(
+        known.going_on({kEdge - 1, kHeight / 2, coc_px}, kOutwards, 4, known.edges_around(0, 0)));
 }
 
 TEST(KnownSurfaces, OfDetailThatABlurHidesTheMeanGoesOn) {
@@ -80,7 +82,7 @@ TEST(KnownSurfaces, LettersAndGapsThatComeToTheEdgeInTurnDoNotSwitchTheSign) {
         const Mixtures none;
         const LitPicture picture{colour, {}};
         const KnownSurfaces known(picture, coc, none, 1, one_thread());
-        return luminance(known.going_on({kEdge - 1, kHeight / 2, 5}, kOutwards, 8));
+        return luminance(known.going_on({kEdge - 1, kHeight / 2, 5}, kOutwards, 8, known.edges_around(0, 0)));
     };
     for (int hidden = 0; hidden < 7; ++hidden) EXPECT_NEAR(behind(hidden), 0.54f, 0.15f) << hidden;
 }

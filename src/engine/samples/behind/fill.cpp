@@ -69,7 +69,8 @@ public:
         const Mixture* m = mixtures_.at(x, y);
         const float own = m && !m->shows_far ? m->near_coc_px : coc_(x, y);
         Hits hits;
-        const float outline_px = outlines_.distance_px({x, y});
+        const HiddenOutlines::Around outlines = outlines_.around({x, y});
+        const float outline_px = outlines.distance_px();
         const SurfaceSearch::Start start{x, y, own, slope_at(coc_, connected_, x, y),
                                          std::isfinite(outline_px) ? completion_model.outline_search_px : 0};
         bool reached = false;
@@ -82,7 +83,7 @@ public:
         if (!reached || outline_px < kCloseToOutlinePx)
             for (std::size_t k = 0; k < kDirections; k += every_)
                 if (k % every_first_ != 0) look(k);
-        if (reached) stack(x, y, hits, hidden);
+        if (reached) stack({x, y, outlines, known_.edges_around(x, y)}, hits, hidden);
     }
 
 private:
@@ -139,10 +140,17 @@ private:
         float unhidden = 0;         // weight of hits that no outline of a nearer surface hides
     };
 
+    // A hidden pixel, and what stands around it.
+    struct Here {
+        int x, y;
+        const HiddenOutlines::Around& outlines;
+        CutEdges::Around edges;
+    };
+
     // The surfaces met, nearest first. The farthest fills the rest; a nearer one takes the share that it has
     // of the surroundings, so a wire behind a leaf continues as a wire. Where its outline continues hidden,
     // it takes all on its side.
-    void stack(int x, int y, Hits& hits, std::vector<HiddenGuess>& hidden) const {
+    void stack(const Here& here, Hits& hits, std::vector<HiddenGuess>& hidden) const {
         float all_behind = 0, unhidden_behind = 0;
         std::array<HiddenGuess, kSurfaces + 1> surfaces;
         std::size_t n = 0;
@@ -154,7 +162,7 @@ private:
                     if (f.found) farthest = std::max(farthest, f.coc_px);
             if (farthest < -1e29f) break;
             Met met;
-            HiddenGuess next = surface(x, y, hits, farthest, met);
+            HiddenGuess next = surface(here, hits, farthest, met);
             const float inside = met.within / met.all;
             const float behind = all_behind + inside * (unhidden_behind - all_behind);
             next.seen.share = first ? 1 : sharpened(met.within / (met.within + behind + 1e-9f));
@@ -195,20 +203,22 @@ private:
     }
 
     // The estimate of the surface behind (x, y) whose farthest hit is at `coc_px`. Its hits are used up.
-    HiddenGuess surface(int x, int y, Hits& hits, float coc_px, Met& met) const {
+    HiddenGuess surface(const Here& here, Hits& hits, float coc_px, Met& met) const {
         Votes votes;
-        HiddenTextures::Point hidden(textures_, x, y);
+        HiddenTextures::Point hidden(textures_, here.x, here.y);
         const float nearest_px = nearest_of_surface(hits, coc_px);
         const auto take = [&](std::size_t k) -> const Found* {
             for (const Found& f : hits[k])
                 if (f.found && f.coc_px >= nearest_px) return &f;
             return nullptr;
         };
-        const auto passes = [&](const Found* f) { return f ? known_.passes(f->place(), x, y) : 0; };
+        const auto passes = [&](const Found* f) {
+            return f ? here.edges.passes({f->x, f->y}, f->coc_px) : 0;
+        };
         const auto meet = [&](const Found& f) {
             const float share = 1 / f.distance_px;
             met.all += share;
-            const HiddenOutlines::Open open = outlines_.open({f.x, f.y}, {x, y}, f.coc_px);
+            const HiddenOutlines::Open open = here.outlines.open({f.x, f.y}, f.coc_px);
             met.within += share * open.within, met.unhidden += share * open.unhidden;
         };
         float nearest = 1e9f;  // distance of the nearest hit, px
@@ -221,8 +231,8 @@ private:
             if (b) meet(*b);
             const float from_a = passes(a), from_b = passes(b), both = from_a * from_b;
             if (a && b) add_pair(hidden, *a, *b, k, both, votes);
-            if (a && from_a > both) add_alone(hidden, *a, k, nearest, from_a - both, votes);
-            if (b && from_b > both) add_alone(hidden, *b, k + kPairs, nearest, from_b - both, votes);
+            if (a && from_a > both) add_alone(here, hidden, *a, k, nearest, from_a - both, votes);
+            if (b && from_b > both) add_alone(here, hidden, *b, k + kPairs, nearest, from_b - both, votes);
         }
         for (auto& direction : hits)
             for (Found& f : direction) f.found = f.found && f.coc_px < nearest_px;
@@ -243,10 +253,10 @@ private:
         votes.add(wa * a.coc_px + wb * b.coc_px, vote);
     }
     // Adds a surface met in direction k alone.
-    void add_alone(HiddenTextures::Point& hidden, const Found& one, std::size_t k, float nearest_px,
-                   float weight, Votes& votes) const {
+    void add_alone(const Here& here, HiddenTextures::Point& hidden, const Found& one, std::size_t k,
+                   float nearest_px, float weight, Votes& votes) const {
         const float away = one.distance_px * one.distance_px;
-        const Rgba colour = known_.going_on(one.place(), search_.direction(k), one.distance_px);
+        const Rgba colour = known_.going_on(one.place(), search_.direction(k), one.distance_px, here.edges);
         const float vote = weight * (completion_model.alone_weight * nearest_px / (away * one.distance_px));
         votes.add(colour, hidden.going_on(one.place()), vote);
         votes.add(one.coc_px, vote);

@@ -39,6 +39,7 @@ private:
     Rgba mean(int x, int y, int height, const HiddenGuess& own) const {
         constexpr std::array<float, 2> kWeights{2, 1};  // of a 3 x 3 binomial filter
         Rgba sum = 4 * own.plain * own.seen.colour;
+        const CutEdges::Around edges = known_.edges_around(x, y);
         float total = 4 * own.plain;
         for (int dy = -1; dy <= 1; ++dy) {
             const int v = y + dy * spacing_;
@@ -50,7 +51,7 @@ private:
                 if (!other) continue;
                 const float weight = kWeights[std::size_t(std::abs(dx))] *
                                      kWeights[std::size_t(std::abs(dy))] * other->plain *
-                                     known_.passes({u, v, own.seen.coc_px}, x, y);
+                                     edges.passes({u, v}, own.seen.coc_px);
                 sum += weight * other->seen.colour;
                 total += weight;
             }

@@ -149,20 +149,43 @@ void CutEdges::sort_into_cells(int width, int height) {
     }
 }
 
-float CutEdges::passes(Point shown, Point hidden, float coc_px) const {
-    const CompletionModel& model = completion_model;
-    if (edges_.empty()) return 1;
-    float open = 1;
-    for (const int i : near_[std::size_t(hidden.y / kCell * columns_ + hidden.x / kCell)]) {
+namespace {
+
+// A point in the coordinates of an edge.
+struct OnEdge {
+    float x, y;
+    const CutEdges::Edge& edge;
+    OnEdge(const CutEdges::Edge& e, CutEdges::Point p)
+        : x(float(p.x - e.at.x) - e.off_x), y(float(p.y - e.at.y) - e.off_y), edge(e) {}
+    float aside() const { return y * edge.into_x - x * edge.into_y; }
+    float ahead() const { return x * edge.into_x + y * edge.into_y; }
+};
+
+}  // namespace
+
+CutEdges::Around CutEdges::around(Point hidden) const {
+    Around around;
+    if (edges_.empty()) return around;
+    const auto& numbers = near_[std::size_t(hidden.y / kCell * columns_ + hidden.x / kCell)];
+    around.near_.reserve(numbers.size());
+    for (const int i : numbers) {
         const Edge& e = edges_[std::size_t(i)];
+        const OnEdge at(e, hidden);
+        around.near_.push_back({&e, at.aside(), at.ahead()});
+    }
+    return around;
+}
+
+float CutEdges::Around::passes(Point shown, float coc_px) const {
+    const CompletionModel& model = completion_model;
+    float open = 1;
+    for (const Near& near : near_) {
+        const Edge& e = *near.edge;
         if (std::abs(e.coc_px - coc_px) > model.apart_px()) continue;
-        const auto x = [&](Point p) { return float(p.x - e.at.x) - e.off_x; };
-        const auto y = [&](Point p) { return float(p.y - e.at.y) - e.off_y; };
-        const auto side = [&](Point p) { return y(p) * e.into_x - x(p) * e.into_y; };
-        const auto ahead = [&](Point p) { return x(p) * e.into_x + y(p) * e.into_y; };
-        const float a = side(hidden), b = side(shown);
+        const OnEdge at(e, shown);
+        const float a = near.aside, b = at.aside();
         if (a * b >= 0) continue;
-        const float met = (ahead(hidden) * b - ahead(shown) * a) / (b - a);
+        const float met = (near.ahead * b - at.ahead() * a) / (b - a);
         if (met < -model.end_px || met > model.continues_px) continue;
         open *= 1 - e.strength * std::min({1.0f, std::abs(a) / model.barrier_soft_px,
                                            std::abs(b) / model.barrier_soft_px});

@@ -18,9 +18,9 @@ public:
     struct Point {
         int x, y;
     };
-    // Weight of a colour visible at `shown`, of a surface at coc_px, for a hidden point: 1 if nothing stands
-    // between them, kCut behind a continuing edge.
-    float passes(Point shown, Point hidden, float coc_px) const;
+    // The edges that may continue near a hidden point. Borrows the edges.
+    class Around;
+    Around around(Point hidden) const;
     // Not 0, so that weights remain if all colours lie behind some edge.
     static constexpr float kCut = 1e-3f;
 
@@ -38,6 +38,21 @@ private:
     std::vector<Edge> edges_;
     int columns_ = 0;
     std::vector<std::vector<int>> near_;  // per cell: numbers of the edges that may reach into it
+};
+
+class CutEdges::Around {
+public:
+    // Weight of a colour visible at `shown`, of a surface at coc_px, for the hidden point: 1 if nothing
+    // stands between them, kCut behind a continuing edge.
+    float passes(Point shown, float coc_px) const;
+
+private:
+    friend class CutEdges;
+    struct Near {
+        const Edge* edge;
+        float aside, ahead;  // of the hidden point: to which side of the edge, and how far along it
+    };
+    std::vector<Near> near_;
 };
 
 }  // namespace petzval::engine

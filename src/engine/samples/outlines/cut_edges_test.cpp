@@ -41,23 +41,23 @@ struct Scene {
 TEST(CutEdges, NoColourCrossesAnEdgeThatGoesOn) {
     const CutEdges edges = Scene().edges(1);
     const CutEdges::Point window{30, 40}, wall{50, 40}, inside{35, 28}, outside{45, 28};
-    EXPECT_EQ(edges.passes(window, inside, kWallPx), 1);
-    EXPECT_EQ(edges.passes(wall, outside, kWallPx), 1);
-    EXPECT_FLOAT_EQ(edges.passes(window, outside, kWallPx), CutEdges::kCut);
-    EXPECT_FLOAT_EQ(edges.passes(wall, inside, kWallPx), CutEdges::kCut);
+    EXPECT_EQ(edges.around(inside).passes(window, kWallPx), 1);
+    EXPECT_EQ(edges.around(outside).passes(wall, kWallPx), 1);
+    EXPECT_FLOAT_EQ(edges.around(outside).passes(window, kWallPx), CutEdges::kCut);
+    EXPECT_FLOAT_EQ(edges.around(inside).passes(wall, kWallPx), CutEdges::kCut);
 }
 
 TEST(CutEdges, OtherSurfacesAndPlainOnesAreNotCut) {
     const CutEdges::Point window{30, 40}, outside{45, 28};
-    EXPECT_EQ(Scene().edges(1).passes(window, outside, 0), 1);
-    EXPECT_EQ(Scene(kWall).edges(1).passes(window, outside, kWallPx), 1);
-    EXPECT_EQ(Scene().edges(0).passes(window, outside, kWallPx), 1) << "nothing is known to be bright";
+    EXPECT_EQ(Scene().edges(1).around(outside).passes(window, 0), 1);
+    EXPECT_EQ(Scene(kWall).edges(1).around(outside).passes(window, kWallPx), 1);
+    EXPECT_EQ(Scene().edges(0).around(outside).passes(window, kWallPx), 1) << "nothing is known to be bright";
 }
 
 TEST(CutEdges, NoneIsLookedForOnWhatIsBlurredMore) {
     const CutEdges::Point window{30, 40}, outside{45, 28};
-    EXPECT_FLOAT_EQ(Scene().edges(1, kWallPx).passes(window, outside, kWallPx), CutEdges::kCut);
-    EXPECT_EQ(Scene().edges(1, kWallPx - 1).passes(window, outside, kWallPx), 1);
+    EXPECT_FLOAT_EQ(Scene().edges(1, kWallPx).around(outside).passes(window, kWallPx), CutEdges::kCut);
+    EXPECT_EQ(Scene().edges(1, kWallPx - 1).around(outside).passes(window, kWallPx), 1);
 }
 
 // Votes by distance alone let up to nine times the wall's light out, and keep less than half inside.

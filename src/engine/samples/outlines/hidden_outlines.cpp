@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 namespace petzval::engine {
@@ -38,6 +37,11 @@ struct Course {
         return {here.start.x - right_px * here.into_y, here.start.y + right_px * here.into_x};
     }
 };
+
+// The middle of a pixel in the coordinates of an outline.
+PlanePoint place_of(PixelAt p, const Outline& o) {
+    return {float(p.x - o.at.x) + 0.5f, float(p.y - o.at.y) + 0.5f};
+}
 
 // Joins ends that belong to one outline, and continues the others.
 class EndJoiner {
@@ -250,41 +254,37 @@ void HiddenOutlines::sort_into_cells(int width, int height) {
     }
 }
 
-float HiddenOutlines::distance_px(PixelAt hidden) const {
-    float least = std::numeric_limits<float>::infinity();
-    if (outlines_.empty()) return least;
-    for (const int i : near_[std::size_t(hidden.y / kCell * columns_ + hidden.x / kCell)]) {
-        const Outline& o = outlines_[std::size_t(i)];
-        if (std::max(std::abs(hidden.x - o.middle.x), std::abs(hidden.y - o.middle.y)) <= o.around_px)
-            least = std::min(
-                least,
-                std::abs(o.arc.right_of({float(hidden.x - o.at.x) + 0.5f, float(hidden.y - o.at.y) + 0.5f})));
-    }
-    return least;
-}
-
-HiddenOutlines::Open HiddenOutlines::open(PixelAt shown, PixelAt hidden, float coc_px) const {
-    const CompletionModel& model = completion_model;
-    Open open;
-    if (outlines_.empty()) return open;
+HiddenOutlines::Around HiddenOutlines::around(PixelAt hidden) const {
+    Around around;
+    if (outlines_.empty()) return around;
     for (const int i : near_[std::size_t(hidden.y / kCell * columns_ + hidden.x / kCell)]) {
         const Outline& o = outlines_[std::size_t(i)];
         // (Distance from the point, not from the cell, so that strips of a frame agree.)
         if (std::max(std::abs(hidden.x - o.middle.x), std::abs(hidden.y - o.middle.y)) > o.around_px)
             continue;
+        const PlanePoint to = place_of(hidden, o);
+        around.near_.push_back({&o, to, o.arc.right_of(to)});
+        around.distance_px_ = std::min(around.distance_px_, std::abs(around.near_.back().right_px));
+    }
+    return around;
+}
+
+HiddenOutlines::Open HiddenOutlines::Around::open(PixelAt shown, float coc_px) const {
+    const CompletionModel& model = completion_model;
+    Open open;
+    for (const Near& near : near_) {
+        const Outline& o = *near.outline;
         const bool own = one_surface(o.coc_px, coc_px);
         if (!own && o.coc_px >= coc_px) continue;
-        const auto place = [&](PixelAt p) {
-            return PlanePoint{float(p.x - o.at.x) + 0.5f, float(p.y - o.at.y) + 0.5f};
-        };
-        const PlanePoint to = place(hidden), from = place(shown);
         const bool from_left = own == o.same_is_left;
         const float sign = from_left ? 1.0f : -1.0f;
-        if (sign * o.arc.right_of(to) <= 0 || sign * o.arc.right_of(from) >= 0) continue;
-        const float met = from_left ? o.arc.crossed(to, from) : o.arc.crossed(from, to);
+        if (sign * near.right_px <= 0) continue;
+        const PlanePoint from = place_of(shown, o);
+        if (sign * o.arc.right_of(from) >= 0) continue;
+        const float met = from_left ? o.arc.crossed(near.to, from) : o.arc.crossed(from, near.to);
         if (met < -model.end_px || met > o.length_px) continue;
         (own ? open.within : open.unhidden) *=
-            1 - std::min(1.0f, std::abs(o.arc.aside(to)) / model.barrier_soft_px);
+            1 - std::min(1.0f, std::abs(o.arc.aside(near.to)) / model.barrier_soft_px);
     }
     return open;
 }

@@ -6,6 +6,7 @@
 
 #include "engine/samples/outlines/outline_end.h"
 
+#include <limits>
 #include <vector>
 
 namespace petzval::engine {
@@ -24,17 +25,15 @@ public:
     // coc_px: radius of each pixel, as the picture states it.
     HiddenOutlines(View<const float> coc_px, Workers& workers);
 
-    // For a surface at coc_px visible at `shown`: whether it continues to a hidden point, 1, or 0 beyond its
+    // For a surface at coc_px visible somewhere: whether it continues to a hidden point, 1, or 0 beyond its
     // own outline; and whether it can be visible there, 0 if the outline of a nearer surface begins between
     // them.
     struct Open {
         float within = 1, unhidden = 1;
     };
-    Open open(PixelAt shown, PixelAt hidden, float coc_px) const;
-
-    // About how far that point is from the course of an outline that may be hidden near it; infinite if none
-    // is.
-    float distance_px(PixelAt hidden) const;
+    // The outlines that may be hidden near a point. Borrows them.
+    class Around;
+    Around around(PixelAt hidden) const;
 
     struct Outline {
         PixelAt at;  // origin of the arc's coordinates: the corner of pixel (x, y) nearest to (0, 0)
@@ -52,6 +51,23 @@ private:
     std::vector<Outline> outlines_;
     int columns_ = 0;
     std::vector<std::vector<int>> near_;  // numbers of outlines that may reach into each cell
+};
+
+class HiddenOutlines::Around {
+public:
+    Open open(PixelAt shown, float coc_px) const;
+    // About how far the hidden point is from the course of one of them; infinite if there is none.
+    float distance_px() const { return distance_px_; }
+
+private:
+    friend class HiddenOutlines;
+    struct Near {
+        const Outline* outline;
+        PlanePoint to;   // the hidden point, in the coordinates of the outline
+        float right_px;  // Arc::right_of() it
+    };
+    std::vector<Near> near_;
+    float distance_px_ = std::numeric_limits<float>::infinity();
 };
 
 }  // namespace petzval::engine

@@ -101,7 +101,7 @@ TEST(HiddenOutlines, ABallThatGoesBehindSomethingWideIsRoundAtFirst) {
 
 // The share to which the thing, visible at (20, 50), continues by its outlines.
 float within(const Scene& scene, int x, int y) {
-    return HiddenOutlines(scene.coc, one_thread()).open({20, 50}, {x, y}, 0).within;
+    return HiddenOutlines(scene.coc, one_thread()).around({x, y}).open({20, 50}, 0).within;
 }
 
 // A leaf, then a wall, with less between them than can be traced.
@@ -123,8 +123,8 @@ TEST(HiddenOutlines, AnEdgeContinuesAloneForAHundredPixels) {
     ASSERT_EQ(outlines.outlines().size(), 1U);
     EXPECT_GE(outlines.outlines()[0].length_px, 100);
     for (const int x : {50, 90, 138}) {
-        EXPECT_EQ(outlines.open({20, 20}, {x, 27}, 0).within, 1) << x;
-        EXPECT_EQ(outlines.open({20, 20}, {x, 36}, 0).within, 0) << x;
+        EXPECT_EQ(outlines.around({x, 27}).open({20, 20}, 0).within, 1) << x;
+        EXPECT_EQ(outlines.around({x, 36}).open({20, 20}, 0).within, 0) << x;
     }
 }
 
