@@ -77,9 +77,11 @@ struct GaussianPlan {
     template <typename Emit>
     void for_each_sample(int x, int y, const Emit& emit) const {
         LayeredSample seen{LayeredSample::Seen, colour(x, y), 1, coc_px(x, y), mix(coc_px(x, y))};
-        if (const Mixture* const m = surfaces.mixtures.at(x, y); m && m->shows_far && m->near_share > 0) {
-            emit({LayeredSample::Rim, m->near_colour, m->near_share, m->near_coc_px, mix(m->near_coc_px)});
-            seen.light = m->far_colour;
+        if (const Mixture* const m = surfaces.mixtures.at(x, y); m && m->shows_far) {
+            if (FlatSurfaces::shows_near(*m))
+                emit(
+                    {LayeredSample::Rim, m->near_colour, m->near_share, m->near_coc_px, mix(m->near_coc_px)});
+            seen.light = m->far_colour + m->far_light;
         }
         emit(seen);
         const Hidden* const behind = surfaces.most_hidden(x, y);

@@ -32,8 +32,7 @@ FlatSurfaces surfaces_of(const EngineView& input, View<const Rgba> colour, bool 
     const float white = white_of(input.all().samples.judged(), workers);
     const LitPicture picture{colour, white > 0 ? without_lamps(white) : Dim{}};
     const Image<unsigned char> connected = connections(samples.coc_px, workers);
-    FillRule rule = FillRule::draft();
-    rule.hides_before_px = -1;
+    const FillRule rule = FillRule::preview();
     FlatSurfaces found;
     found.mixtures = unmix_silhouettes(picture, samples.coc_px, connected, workers, UnmixRule::draft());
     if (fills && samples.nearest_coc_px < rule.hides_before_px)

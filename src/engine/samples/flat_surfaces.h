@@ -26,6 +26,9 @@ struct FlatSurfaces {
         visit(*this, colour, coc_px, x, y, 1, emit);
     }
 
+    // True if the nearer surface takes up a part of the pixel worth drawing.
+    static bool shows_near(const Mixture& m) { return m.near_share > 1e-3f || m.lights_near; }
+
     // The hidden surface that shows most of itself behind the pixel; null: none was found.
     const Hidden* most_hidden(int x, int y) const {
         const Hidden* most = nullptr;
@@ -44,12 +47,10 @@ private:
     template <typename Self, typename Emit>
     static void visit(Self& self, View<const Rgba> colour, View<const float> coc_px, int x, int y,
                       float share_alone, Emit& emit) {
-        constexpr float kLeastShare = 1e-3f;
         auto* const m = self.mixtures.at(x, y);
         const auto behind = self.hidden.at(x, y);
         if (Rgba alone = colour(x, y); !m) emit(alone, coc_px(x, y), share_alone);
-        if (m && (m->near_share > kLeastShare || m->lights_near))
-            emit(m->near_colour, m->near_coc_px, m->near_share);
+        if (m && shows_near(*m)) emit(m->near_colour, m->near_coc_px, m->near_share);
         if (m && (m->shows_far || behind.empty())) emit(m->far_colour, m->far_coc_px, 1.0f);
         for (auto& h : behind) emit(h.colour, h.coc_px, h.share);
         if (m && m->far_light != Rgba{}) emit(m->far_light, m->lamp_coc_px, 0.0f);

@@ -128,7 +128,18 @@ struct FillRule {
     float edges_to_px = std::numeric_limits<float>::infinity();
     // Only surfaces at smaller signed radii are looked behind.
     float hides_before_px = std::numeric_limits<float>::infinity();
+    bool smooths = true;  // neighbours agree on colours (behind/smooth.h)
     static FillRule draft() { return {1.5f, 4, 8, false, 6}; }
+    // For previews, whose rings of kernels hide grain and small errors.
+    static FillRule preview() {
+        return {.shared_from_px = 1.5f,
+                .first_directions = 4,
+                .directions = 4,
+                .textures = false,
+                .edges_to_px = -1,
+                .hides_before_px = -1,
+                .smooths = false};
+    }
 };
 
 // Continues what lies behind every surface inwards from its silhouettes, as far as any lens ray can reach

@@ -391,7 +391,7 @@ HiddenLayers fill_hidden(const LitPicture& picture, View<const float> coc,
             });
         guesses[std::size_t(i)].assign(band.hidden.begin(), band.hidden.end());  // without spare capacity
     });
-    smooth(layers.ranges, guesses, filler.known(), workers);
+    if (rule.smooths) smooth(layers.ranges, guesses, filler.known(), workers);
     parallel_for(bands, workers, [&](int i) {
         std::vector<Hidden>& seen = layers.bands[std::size_t(i)];
         seen.reserve(guesses[std::size_t(i)].size());
