@@ -34,10 +34,16 @@ struct Strips {
 // for flat pictures (docs/results/memory.md); others are less certain.
 double working_bytes_per_pixel(const EngineView& input) {
     constexpr double kPerPixel = 17, kPerSilhouettePixel = 260, kMost = 106;
-    const bool flat = input.samples.deep.empty() && input.samples.plate.empty() &&
-                      input.samples.layers.empty() && input.samples.holdout.empty();
+    constexpr double kOfLayer = 160, kOfLayerPerSilhouettePixel = 420;
+    const Samples& samples = input.samples;
+    const bool flat = samples.deep.empty() && samples.plate.empty() && samples.holdout.empty();
     if (!flat || input.services.max_memory_bytes == 0) return kMost;
-    return kPerPixel + kPerSilhouettePixel * silhouettes_of(input.samples.coc_px, *input.services.workers).at;
+    const double at = silhouettes_of(samples.coc_px, *input.services.workers).at;
+    const double flat_bytes = kPerPixel + kPerSilhouettePixel * at;
+    // (The picture asks for its layers, which are drawn after it.)
+    if (samples.picture.empty() && samples.layers.empty()) return flat_bytes;
+    const std::size_t results = samples.picture.empty() ? samples.layers.size() : 0;
+    return flat_bytes + kOfLayer + kOfLayerPerSilhouettePixel * at + double(sizeof(Rgba) * results);
 }
 
 Strips plan_strips(const EngineView& input, const RingSizes& sizes, const BrightPoints& found) {

@@ -54,6 +54,8 @@ void take_light_of_layer(const EngineView& layer, FlatSurfaces& surfaces) {
         for (int y = 0; y < colour.height(); ++y)
             for (int x = 0; x < colour.width(); ++x) visit(x, y);
     };
+    const std::size_t pixels = std::size_t(colour.width()) * std::size_t(colour.height());
+    all.first.reserve(pixels + 1), all.samples.reserve(surfaces.sample_count(pixels));
     each_pixel([&](int x, int y) {
         all.first.push_back(all.samples.size());
         surfaces.visit(colour, coc_px, x, y, 1, [&](Rgba c, float coc, float) {
@@ -70,6 +72,21 @@ void take_light_of_layer(const EngineView& layer, FlatSurfaces& surfaces) {
 }
 
 }  // namespace
+
+std::size_t FlatSurfaces::sample_count(std::size_t pixels) const {
+    std::size_t count = pixels;
+    for (int y = 0; y < mixtures.height(); ++y)
+        mixtures.for_each_in_row(y, [&](int, const Mixture&) { count += 2; });
+    for (int y = 0; y < hidden.ranges.height(); ++y)
+        hidden.ranges.for_each_in_row(y, [&](int, const HiddenLayers::Range& r) { count += r.count; });
+    return count;
+}
+
+std::size_t FlatSurfaces::bytes_of_layer(std::size_t pixels) const {
+    constexpr std::size_t kShares = 3;  // copies of a sample's shares
+    return pixels * 2 * sizeof(std::size_t) +
+           sample_count(pixels) * (2 * sizeof(CocSample) + kShares * sizeof(Rgba));
+}
 
 std::size_t FlatSurfaces::bytes() const {
     std::size_t bytes = mixtures.bytes() + hidden.ranges.bytes();

@@ -41,7 +41,11 @@ struct FlatSurfaces {
         return most;
     }
     bool empty() const { return mixtures.empty() && hidden.ranges.empty(); }
+    // Samples of a picture of so many pixels, at most.
+    std::size_t sample_count(std::size_t pixels) const;
     std::size_t bytes() const;
+    // Bytes that giving them the light of a layer takes for a while.
+    std::size_t bytes_of_layer(std::size_t pixels) const;
 
 private:
     template <typename Self, typename Emit>

@@ -140,7 +140,7 @@ private:
         float unhidden = 0;         // weight of hits that no outline of a nearer surface hides
     };
 
-    // A hidden pixel, and what stands around it.
+    // A hidden pixel, and the outlines and edges around it.
     struct Here {
         int x, y;
         const HiddenOutlines::Around& outlines;
