@@ -1,4 +1,5 @@
-"""Fails if a room includes a header of a room it may not know, or if rooms include each other in a circle, plans counted.
+"""Fails if a room includes a header of a room it may not know, if rooms include each other in a circle, plans counted, or if
+two files define types of one name.
 The table IS the architecture.
 
 Usage: check_layers.py [repository root]. Prints each violation as FILE:LINE; exit status 1 if there is any.
@@ -200,11 +201,38 @@ def circle(graph):
     return next(filter(None, (search(room, []) for room in sorted(graph))), [])
 
 
+TYPE = re.compile(r"(?:template <.*> ?)?(?:struct|class|enum class|union) (\w+)(?: final)?(?: :[^:].*)? ?\{")
+NAMESPACE = re.compile(r"(?:inline )?namespace ?([\w:]*) \{")
+
+
+def types_of(path):
+    """Types that a file defines in named namespaces, with their namespaces."""
+    inside = []
+    for line in path.read_text().splitlines():
+        if opened := NAMESPACE.match(line):
+            inside.append(opened[1])
+        elif line.startswith("}  // namespace") and inside:
+            inside.pop()
+        elif (found := TYPE.match(line)) and inside and all(inside):
+            yield "::".join([*inside, found[1]])
+
+
+def shared_names(files):
+    """Types of one name in two files: the linker takes either for both, and says nothing."""
+    homes = {}
+    for path in files:
+        for name in types_of(path):
+            homes.setdefault(name, []).append(path)
+    return {name: paths for name, paths in homes.items() if len(paths) > 1}
+
+
 def violations(root):
     round_trip = circle(code_by_room(root))
     if round_trip:
         yield "rooms include each other: " + " -> ".join(round_trip)
     files = [p for d in ("include", "src", "apps", "plugins") for p in sorted((root / d).rglob("*.[hc]*"))]
+    for name, paths in shared_names([p for p in files if "plugins" not in p.parts]).items():
+        yield f"{paths[-1].relative_to(root)}:1: {name} is also a type of {paths[0].relative_to(root)}"
     for path in files:
         name = path.relative_to(root).as_posix()
         top = name.split("/")[0]

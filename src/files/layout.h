@@ -10,13 +10,13 @@
 
 namespace petzval {
 
-enum class SampleType { Uint, Half, Float };
+enum class ChannelType { Uint, Half, Float };
 inline constexpr float kLargestHalf = 65504.f;
 
 // Channel `forward.left.u` has layer "forward", view "left" and base "u".
 struct Channel {
     std::string name, layer, view, base;
-    SampleType type = SampleType::Half;
+    ChannelType type = ChannelType::Half;
     int x_sampling = 1, y_sampling = 1;
 
     friend bool operator==(const Channel&, const Channel&) = default;

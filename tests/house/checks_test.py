@@ -66,6 +66,12 @@ class Checks(unittest.TestCase):
         self.assert_found("check_layers.py", {**plan, "src/glare/a.cpp": '#include "device/cpu/a.h"\n'},
                           "rooms include each other: device/cpu -> glare -> device/cpu")
 
+    def test_two_types_of_one_name_are_found(self):
+        named = "namespace petzval {\nstruct Surface {\n};\n}  // namespace petzval\n"
+        hidden = "namespace petzval {\nnamespace {\nstruct Surface {\n};\n}  // namespace\n}  // namespace petzval\n"
+        self.assert_found("check_layers.py", {"src/image/a.h": named, "src/optics/b.cpp": named}, "petzval::Surface is also")
+        self.assert_clean("check_layers.py", {"src/image/a.h": named, "src/optics/b.cpp": hidden})
+
     def test_a_public_header_of_a_higher_room_is_found(self):
         self.assert_found("check_layers.py", {"src/image/a.cpp": '#include "petzval/defocus.h"\n'}, "petzval/defocus.h")
 

@@ -104,8 +104,8 @@ ColourChoice choice_of(const ChannelGroup& g) {
     return c;
 }
 
-const char* type_name(SampleType type) {
-    return type == SampleType::Half ? "half" : type == SampleType::Float ? "float" : "uint";
+const char* type_name(ChannelType type) {
+    return type == ChannelType::Half ? "half" : type == ChannelType::Float ? "float" : "uint";
 }
 
 std::string line_of(const ColourChoice& c, const Part& part, const std::string& why,

@@ -44,7 +44,7 @@ struct Candidate {
 std::string refusal(const Part& part, const Channel& c) {
     if (part.deep) return "deep";
     if (!part.complete) return "incomplete";
-    if (c.type == SampleType::Uint) return "whole numbers, such as ids";
+    if (c.type == ChannelType::Uint) return "whole numbers, such as ids";
     if (c.subsampled()) return "subsampled";
     const std::string name = lower(c.layer.empty() ? part.label : c.layer);
     for (const std::string& crypto : part.cryptomattes)

@@ -69,7 +69,7 @@ TEST(LayerChoice, LeavesAloneWhatIsNoLightAndSaysWhy) {
                           "mv.u", "mv.v", "Asset00.R", "Asset00.G", "Asset00.B", "chroma"}),
                 part("wide", {"m"}, {-1, 0, 8, 8})});
     l.parts[0].cryptomattes = {"Asset"};
-    l.parts[0].channels[4].type = SampleType::Uint;
+    l.parts[0].channels[4].type = ChannelType::Uint;
     l.parts[0].channels.back().x_sampling = 2;
     const Chosen c = chosen(l, {"all"});
     EXPECT_TRUE(c.blurred.empty());

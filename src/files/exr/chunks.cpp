@@ -17,7 +17,7 @@
 namespace petzval {
 namespace {
 
-std::size_t bytes_of(SampleType type) { return type == SampleType::Half ? 2 : 4; }
+std::size_t bytes_of(ChannelType type) { return type == ChannelType::Half ? 2 : 4; }
 
 Error damaged(const ExrFile& exr, std::size_t part, const Rect& pixels, const std::string& what) {
     const std::string& title = exr.layout.parts[part].title;

@@ -181,7 +181,7 @@ private:
     // A few bytes can stand for many samples, but real ones do not repeat for ever.
     std::string absurd(std::size_t count, std::size_t most) const {
         double bytes = 0;
-        for (const Channel& c : description_.channels) bytes += c.type == SampleType::Half ? 2 : 4;
+        for (const Channel& c : description_.channels) bytes += c.type == ChannelType::Half ? 2 : 4;
         constexpr std::size_t kAlwaysAllowed = std::size_t(1) << 24;
         constexpr double kDensest = 200;
         if (count > most)

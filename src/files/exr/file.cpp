@@ -59,9 +59,9 @@ Part part_of(const Imf::Header& header, const std::vector<std::string>& declared
         Channel channel = split_channel_name(c.name(), declared_views);
         if (channel.view.empty()) channel.view = part.view;
         const Imf::PixelType type = c.channel().type;
-        channel.type = type == Imf::UINT    ? SampleType::Uint
-                       : type == Imf::FLOAT ? SampleType::Float
-                                            : SampleType::Half;
+        channel.type = type == Imf::UINT    ? ChannelType::Uint
+                       : type == Imf::FLOAT ? ChannelType::Float
+                                            : ChannelType::Half;
         channel.x_sampling = c.channel().xSampling, channel.y_sampling = c.channel().ySampling;
         part.channels.push_back(channel);
     }

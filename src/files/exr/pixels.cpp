@@ -72,16 +72,16 @@ void copy_samples(const unsigned char* from, int count, float* to, std::ptrdiff_
 
 Status unpacked_floats(const Part& part, FlatChunks& chunks, const std::vector<FloatTarget>& targets) {
     std::vector<std::string> names;
-    std::vector<SampleType> types;
+    std::vector<ChannelType> types;
     for (const FloatTarget& t : targets)
         names.push_back(t.channel), types.push_back(part.find(t.channel)->type);
     const Rect window = part.data_window;
     return chunks.for_pixels(names, window.y0, window.y1, [&](std::size_t n, const FlatChunks::Row& row) {
         const FloatTarget& t = targets[n];
         float* const to = t.first + (row.y - window.y0) * t.row_step + (row.x - window.x0) * t.pixel_step;
-        if (types[n] == SampleType::Half)
+        if (types[n] == ChannelType::Half)
             copy_samples<Imath::half>(row.samples, row.width, to, t.pixel_step);
-        else if (types[n] == SampleType::Float)
+        else if (types[n] == ChannelType::Float)
             copy_samples<float>(row.samples, row.width, to, t.pixel_step);
         else
             copy_samples<std::uint32_t>(row.samples, row.width, to, t.pixel_step);

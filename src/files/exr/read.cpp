@@ -27,9 +27,9 @@ std::vector<PartSummary> summaries_of(const Layout& layout) {
     for (const Part& part : layout.parts) {
         PartSummary s{part.name, part.type, part.view, part.compression, part.data_window, {}};
         for (const Channel& c : part.channels)
-            s.channels.push_back(c.name + (c.type == SampleType::Half    ? " half"
-                                           : c.type == SampleType::Float ? " float"
-                                                                         : " uint"));
+            s.channels.push_back(c.name + (c.type == ChannelType::Half    ? " half"
+                                           : c.type == ChannelType::Float ? " float"
+                                                                          : " uint"));
         summaries.push_back(std::move(s));
     }
     return summaries;

@@ -13,8 +13,8 @@
 namespace petzval {
 namespace {
 
-Imf::PixelType pixel_type(SampleType type) {
-    return type == SampleType::Half ? Imf::HALF : type == SampleType::Float ? Imf::FLOAT : Imf::UINT;
+Imf::PixelType pixel_type(ChannelType type) {
+    return type == ChannelType::Half ? Imf::HALF : type == ChannelType::Float ? Imf::FLOAT : Imf::UINT;
 }
 
 // OpenEXR divides coordinates by the sampling rate, rounding down.
@@ -50,7 +50,7 @@ void resize_band(std::vector<BandChannel>& channels, int width, int rows) {
 int band_rows(const std::vector<Channel>& channels, int width, int height) {
     constexpr double kBytes = 64 << 20;
     double row_bytes = 0;
-    for (const Channel& c : channels) row_bytes += double(width) * (c.type == SampleType::Half ? 2 : 4);
+    for (const Channel& c : channels) row_bytes += double(width) * (c.type == ChannelType::Half ? 2 : 4);
     // Multiples of the 32 lines that most compressions pack together, largest first.
     for (const int rows : {480, 160, 32}) {
         const bool fits = rows == 32 || rows * row_bytes <= kBytes;

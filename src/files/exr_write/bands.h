@@ -23,7 +23,7 @@ struct BandChannel {
     std::vector<char> bytes;  // rows of the band without padding, subsampled rows and columns left out
     std::size_t row_bytes = 0;
 
-    std::size_t sample_bytes() const { return channel.type == SampleType::Half ? 2 : 4; }
+    std::size_t sample_bytes() const { return channel.type == ChannelType::Half ? 2 : 4; }
     char* row(int y_in_band) { return bytes.data() + std::size_t(y_in_band) * row_bytes; }
 };
 

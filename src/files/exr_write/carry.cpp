@@ -133,10 +133,10 @@ private:
 
     static void fill_with_misses(BandChannel& c) {
         const std::size_t count = c.bytes.size() / c.sample_bytes();
-        if (c.channel.type == SampleType::Half)
+        if (c.channel.type == ChannelType::Half)
             std::fill_n(reinterpret_cast<Imath::half*>(c.bytes.data()), count,
                         std::numeric_limits<Imath::half>::infinity());
-        if (c.channel.type == SampleType::Float)
+        if (c.channel.type == ChannelType::Float)
             std::fill_n(reinterpret_cast<float*>(c.bytes.data()), count,
                         std::numeric_limits<float>::infinity());
     }
@@ -194,11 +194,12 @@ private:
         return &out;
     }
 
-    SampleType type_of(const CarriedContent& carried, std::size_t part, const std::string& like) const {
+    ChannelType type_of(const CarriedContent& carried, std::size_t part, const std::string& like) const {
         const Channel* channel = carried.layout.parts[part].find(like);
-        const bool is_float = options_.type == PixelType::Keep ? channel && channel->type == SampleType::Float
-                                                               : options_.type == PixelType::Float;
-        return is_float ? SampleType::Float : SampleType::Half;
+        const bool is_float = options_.type == PixelType::Keep
+                                  ? channel && channel->type == ChannelType::Float
+                                  : options_.type == PixelType::Float;
+        return is_float ? ChannelType::Float : ChannelType::Half;
     }
 
     Status add_colour(const Frame& frame, const CarriedContent& carried) {
@@ -208,7 +209,7 @@ private:
         const std::string& known = c.is_luminance() ? c.luminance : c.red;
         const std::size_t dot = known.rfind('.');
         const std::string prefix = known.substr(0, dot == std::string::npos ? 0 : dot + 1);
-        const SampleType type = type_of(carried, c.part, known);
+        const ChannelType type = type_of(carried, c.part, known);
         const PrimariesConversion* primaries = carried.primaries ? &*carried.primaries : nullptr;
         const auto paint = [&](const std::string& name, const char* otherwise, int component) {
             (*out)->painted.push_back({plain_channel(name.empty() ? prefix + otherwise : name, type),

@@ -109,9 +109,9 @@ Status write_deep_exr(const std::string& path, const Place& place, const DeepPic
                                       [](const DeepSample& s) { return s.depth_back != s.depth; });
     std::vector<Channel> channels;
     for (const char* name : {"R", "G", "B", "A"})
-        channels.push_back(plain_channel(name, wide ? SampleType::Float : SampleType::Half));
-    channels.push_back(plain_channel("Z", SampleType::Float));
-    if (has_back) channels.push_back(plain_channel("ZBack", SampleType::Float));
+        channels.push_back(plain_channel(name, wide ? ChannelType::Float : ChannelType::Half));
+    channels.push_back(plain_channel("Z", ChannelType::Float));
+    if (has_back) channels.push_back(plain_channel("ZBack", ChannelType::Float));
     return write_exr_file(path, options.overwrite, [&](Imf::OStream& stream) -> Status {
         Imf::Header header = new_header(place, channels);
         header.setType(Imf::DEEPSCANLINE);

@@ -22,9 +22,9 @@ namespace {
 Imf::ChannelList channel_list(const std::vector<Channel>& channels) {
     Imf::ChannelList list;
     for (const Channel& c : channels)
-        list.insert(c.name, Imf::Channel(c.type == SampleType::Half    ? Imf::HALF
-                                         : c.type == SampleType::Float ? Imf::FLOAT
-                                                                       : Imf::UINT,
+        list.insert(c.name, Imf::Channel(c.type == ChannelType::Half    ? Imf::HALF
+                                         : c.type == ChannelType::Float ? Imf::FLOAT
+                                                                        : Imf::UINT,
                                          c.x_sampling, c.y_sampling));
     return list;
 }
@@ -65,7 +65,7 @@ Imf::Header copied_header(const Imf::Header& input, const Frame& frame, bool fla
 }  // namespace
 
 bool loses_again(const std::string& compression, const Channel& channel) {
-    if (compression == "b44" || compression == "b44a") return channel.type == SampleType::Half;
+    if (compression == "b44" || compression == "b44a") return channel.type == ChannelType::Half;
     if (compression != "dwaa" && compression != "dwab") return false;
     const std::string base = lower(channel.base);
     constexpr std::array lossy{"r", "g", "b", "y", "ry", "by", "red", "green", "blue"};

@@ -28,7 +28,7 @@ Status write_exr_file(const std::string& path, bool overwrite,
     return (*file)->commit();
 }
 
-Channel plain_channel(const std::string& name, SampleType type) {
+Channel plain_channel(const std::string& name, ChannelType type) {
     Channel c = split_channel_name(name, {});
     c.type = type;
     return c;

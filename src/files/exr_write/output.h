@@ -26,7 +26,7 @@ struct Failure : std::exception {
 Status write_exr_file(const std::string& path, bool overwrite,
                       const std::function<Status(Imf::OStream&)>& body);
 
-Channel plain_channel(const std::string& name, SampleType type);
+Channel plain_channel(const std::string& name, ChannelType type);
 
 // `value` as a file may hold it: NaN becomes 0, what lies beyond `largest` the largest half; both are
 // counted.

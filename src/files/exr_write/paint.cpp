@@ -19,7 +19,7 @@ float component_of(Rgba c, int component) {
 void Painter::fill(BandChannel& to, const Painted& from, int first, int y0, int y1) {
     parallel_for(y1 - y0, workers_, [&](int row) {
         const Rgba* pixels = from.picture->row(y0 + row - first);
-        if (to.channel.type == SampleType::Half)
+        if (to.channel.type == ChannelType::Half)
             fill_row(reinterpret_cast<Imath::half*>(to.row(row)), pixels, from, kLargestHalf);
         else
             fill_row(reinterpret_cast<float*>(to.row(row)), pixels, from, std::numeric_limits<float>::max());

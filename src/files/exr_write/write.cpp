@@ -69,13 +69,13 @@ void copy_moves(BandChannel& to, const MotionChannel& from, int first_row) {
 }
 
 Status write_new(Imf::OStream& stream, const Frame& frame, const WriteOptions& options, Workers& workers) {
-    const SampleType type = options.type == PixelType::Float ? SampleType::Float : SampleType::Half;
+    const ChannelType type = options.type == PixelType::Float ? ChannelType::Float : ChannelType::Half;
     std::vector<Channel> channels;
     for (const char* name : {"R", "G", "B"}) channels.push_back(plain_channel(name, type));
     if (frame.has_alpha) channels.push_back(plain_channel("A", type));
-    if (!frame.depth.empty()) channels.push_back(plain_channel("Z", SampleType::Float));
+    if (!frame.depth.empty()) channels.push_back(plain_channel("Z", ChannelType::Float));
     const std::vector<MotionChannel> motion = motion_channels(frame.motion);
-    for (const MotionChannel& m : motion) channels.push_back(plain_channel(m.name, SampleType::Float));
+    for (const MotionChannel& m : motion) channels.push_back(plain_channel(m.name, ChannelType::Float));
     Imf::Header header = new_header(frame.place, channels);
     if (Status s = apply(options, frame.place.display_window, header); !s) return s;
     Painter painter(workers);
@@ -126,7 +126,7 @@ Status write_exr_planes(const std::string& path, const Place& place, const std::
         if (p.channel.empty() || !place.fits(p.plane.width(), p.plane.height()))
             return Error{ErrorCode::InvalidArgument,
                          "plane '" + printable(p.channel) + "' needs a name and the size of the data window"};
-        channels.push_back(plain_channel(p.channel, SampleType::Float));
+        channels.push_back(plain_channel(p.channel, ChannelType::Float));
     }
     const std::shared_ptr<Workers> workers = workers_of(options.threads, options.workers);
     return write_exr_file(path, options.overwrite, [&](Imf::OStream& stream) -> Status {

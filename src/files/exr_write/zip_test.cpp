@@ -28,9 +28,9 @@ struct Part {
         place.display_window = {0, 0, width + 9, height + 9};
         place.data_window = {-3, 5, width - 3, height + 5};
         for (const char* name : {"R", "G", "B", "A"})
-            channels.push_back(plain_channel(name, SampleType::Half));
-        channels.push_back(plain_channel("Z", SampleType::Float));
-        channels.push_back(plain_channel("id", SampleType::Uint));
+            channels.push_back(plain_channel(name, ChannelType::Half));
+        channels.push_back(plain_channel("Z", ChannelType::Float));
+        channels.push_back(plain_channel("id", ChannelType::Uint));
         header = new_header(place, channels);
         header.compression() = compression;
     }
