@@ -1,7 +1,6 @@
 #include "engine/samples/flat_surfaces.h"
 
 #include "base/parallel.h"
-#include "engine/samples/behind/smooth.h"
 #include "engine/samples/connectivity.h"
 #include "engine/samples/known_surfaces.h"
 #include "engine/samples/layer_shares.h"
@@ -102,7 +101,7 @@ FlatSurfaces preview_surfaces(const EngineView& input, bool fills) {
 
 int preview_reach_px(const EngineView& input) {
     const float largest = std::max(-input.samples.nearest_coc_px, input.samples.farthest_coc_px);
-    return int(std::ceil(2 * largest)) + kOutlineReachPx + kSmoothReachPx;
+    return int(std::ceil(2 * largest)) + kOutlineReachPx;
 }
 
 }  // namespace petzval::engine

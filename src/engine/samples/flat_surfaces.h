@@ -61,9 +61,10 @@ private:
     }
 };
 
-// The surfaces of a picture as previews draw them: the estimate of hidden.h on a draft's terms. Nothing is
-// estimated behind surfaces in focus or beyond it: few of a lens's rays pass those. If input.samples.colour
-// is a layer: its part of the picture's surfaces. fills: false estimates nothing.
+// The surfaces of a picture as previews draw them: the estimate of hidden.h with a short search
+// (FillRule::preview). Nothing is estimated behind surfaces in focus or beyond it: rings of kernels mix the
+// light of near radii, so it would shine through them. If input.samples.colour is a layer: its part of the
+// picture's surfaces. fills: false estimates nothing.
 FlatSurfaces preview_surfaces(const EngineView& input, bool fills);
 
 // Rows around a row that may change its surfaces.
