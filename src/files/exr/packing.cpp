@@ -83,7 +83,8 @@ std::optional<std::size_t> unpack_zlib(std::span<const unsigned char> packed, st
 std::vector<unsigned char> zipped(std::span<const unsigned char> raw, ZipBuffers& buffers) {
     buffers.predicted.resize(raw.size()), buffers.packed.resize(raw.size()), buffers.room.resize(kRoom);
     predict(raw, buffers.predicted.bytes());
-    isal_zstream stream;
+    // ISA-L 2.30 reads hist_bits, which its initialiser leaves as it was: equal pixels packed differently.
+    isal_zstream stream{};
     isal_deflate_stateless_init(&stream);
     stream.level = kLevel, stream.level_buf = buffers.room.data(), stream.level_buf_size = kRoom;
     stream.gzip_flag = IGZIP_ZLIB, stream.end_of_stream = 1;
