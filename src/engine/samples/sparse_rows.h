@@ -15,6 +15,15 @@
 
 namespace petzval::engine {
 
+// std::popcount() calls a function on CPUs that need not have the instruction (the sums of H. Warren,
+// "Hacker's Delight", 2013, section 5-1).
+inline int bits_set(std::uint64_t word) {
+    word -= (word >> 1) & 0x5555555555555555;
+    word = (word & 0x3333333333333333) + ((word >> 2) & 0x3333333333333333);
+    word = (word + (word >> 4)) & 0x0f0f0f0f0f0f0f0f;
+    return int((word * 0x0101010101010101) >> 56);
+}
+
 template <typename T>
 class SparseRows {
 public:
@@ -50,7 +59,7 @@ public:
         if (band.empty()) band.reserve(2 * kBand * row.size());
         words[0].before = std::uint32_t(band.size());
         for (int i = 1; i < words_.width(); ++i)
-            words[i].before = words[i - 1].before + std::uint32_t(std::popcount(words[i - 1].has));
+            words[i].before = words[i - 1].before + std::uint32_t(bits_set(words[i - 1].has));
         band.insert(band.end(), row.begin(), row.end());
     }
 
@@ -81,7 +90,7 @@ private:
         const Word& word = self.words_(x / 64, y);
         const std::uint64_t own = std::uint64_t(1) << (x % 64);
         if ((word.has & own) == 0) return nullptr;
-        return self.bands_[std::size_t(y / kBand)].data() + word.before + std::popcount(word.has & (own - 1));
+        return self.bands_[std::size_t(y / kBand)].data() + word.before + bits_set(word.has & (own - 1));
     }
 
     template <typename Self, typename Visit>

@@ -138,7 +138,7 @@ private:
         std::array<PlanePoint, std::size_t(2) * kTracedPx> points;
         const auto both = of_both(a, b, to_b, points);
         Arc arc;
-        if (!line_or_arc(fitted_line(both, {0, 0}, to_b), fitted_arc(both, {0, 0}, to_b), arc)) return {};
+        if (!fit_line_or_arc(both, {0, 0}, to_b, arc)) return {};
         const float length = arc.along(to_b);
         if (length <= 1) return {};
         if (hidden_for(a, {arc}, sure) < length - kLeastTracedPx) return {};

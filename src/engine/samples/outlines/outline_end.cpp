@@ -73,11 +73,14 @@ void find_arc(OutlineEnd& end) {
         if (n > end.traced_px || n < kLeastTracedPx) continue;
         const auto points = std::span(end.traced).first(std::size_t(n));
         const PlanePoint into{-points[kLeastTracedPx - 1].x, -points[kLeastTracedPx - 1].y};
+        end.told_by = n;
+        if (n >= kLeastOfArc) {
+            if (fit_line_or_arc(points, {0, 0}, into, end.arc)) return;
+            continue;
+        }
         const FittedArc line = fitted_line(points, {0, 0}, into);
-        end.arc = line.arc, end.told_by = n;
-        if (n < kLeastOfArc ? line.worst_px <= completion_model.outline_off_px
-                            : line_or_arc(line, fitted_arc(points, {0, 0}, into), end.arc))
-            return;
+        end.arc = line.arc;
+        if (line.worst_px <= completion_model.outline_off_px) return;
     }
     end.told_by = 0;
 }
@@ -103,9 +106,11 @@ DepthSide depth_side(View<const float> coc, PixelAt pixel, float surface) {
                                                  : DepthSide::Nearer;
 }
 
-bool line_or_arc(const FittedArc& line, const FittedArc& arc, Arc& best) {
-    best = tells(line) ? line.arc : arc.arc;
-    return tells(line) || tells(arc);
+bool fit_line_or_arc(std::span<const PlanePoint> points, PlanePoint start, PlanePoint into, Arc& best) {
+    FittedArc fitted = fitted_line(points, start, into);
+    if (!tells(fitted)) fitted = fitted_arc(points, start, into);
+    best = fitted.arc;
+    return tells(fitted);
 }
 
 std::optional<OutlineEnd> outline_end(View<const float> coc, int x, int y) {

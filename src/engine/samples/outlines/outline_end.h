@@ -39,8 +39,8 @@ struct OutlineEnd {
 // outline between the middle and the farthest one. x is 1…width-1, y is 1…height-1.
 std::optional<OutlineEnd> outline_end(View<const float> coc_px, int x, int y);
 
-// Fits a line to the points, or an arc if the line does not explain them within the precision of pixel sides.
-// False: neither fits.
-bool line_or_arc(const FittedArc& line, const FittedArc& arc, Arc& best);
+// Fits a line to the points, or an arc if the line does not explain them within the precision of pixel sides;
+// start and into: as for fitted_line(). False: neither fits, and `best` is the arc.
+bool fit_line_or_arc(std::span<const PlanePoint> points, PlanePoint start, PlanePoint into, Arc& best);
 
 }  // namespace petzval::engine

@@ -6,6 +6,8 @@
 #include "engine/samples/silhouettes/two_surfaces.h"
 
 #include <algorithm>
+#include <array>
+#include <span>
 #include <vector>
 
 namespace petzval::engine {
@@ -27,7 +29,7 @@ public:
         : mixtures_(mixtures),
           picture_(picture),
           coc_(coc),
-          reach_px_(reach_px),
+          reach_px_(std::min(reach_px, kMostReachPx)),
           width_((coc.width() + kBlock - 1) / kBlock),
           height_((coc.height() + kBlock - 1) / kBlock),
           blocks_(std::size_t(width_) * std::size_t(height_)) {
@@ -107,6 +109,15 @@ private:
         return share2 > 0 ? light_only((1 / share2) * light) : m.near_clean;
     }
 
+    // A pixel that shows the surface behind. weight: near_by, and less for bright pixels.
+    struct Shown {
+        Rgba colour;
+        const Mixture* at;  // the strand mixes into the pixel; null: the pixel is clean
+        float near_by, weight;
+    };
+    static constexpr int kMostReachPx = 5;  // of UnmixRule::clean_within_px
+    static constexpr std::size_t kWindowPx = 2 * kMostReachPx + 1, kMostShown = kWindowPx * kWindowPx;
+
     // The surface behind, from all pixels around that show it. Those that the strand mixes into count after
     // its part was taken out, and less if the error of that part exceeds the surface's own variance.
     Guess behind(int x, int y, const Mixture& m, Rgba near) const {
@@ -115,31 +126,35 @@ private:
         const float third = third_surface_px(coc_(x, y), threshold(m));
         const Rect window =
             Rect{x - reach_px_, y - reach_px_, x + reach_px_ + 1, y + reach_px_ + 1}.intersected(coc_.rect());
-        const auto each = [&](const auto& visit) {
-            for (int v = window.y0; v < window.y1; ++v)
-                for (int u = window.x0; u < window.x1; ++u) {
-                    if (coc_(u, v) > third || coc_(u, v) <= threshold(m)) continue;
-                    const float d2 = float((u - x) * (u - x) + (v - y) * (v - y));
-                    visit(picture_.dim(u, v), mixtures_.at(u, v), 1 / (1 + d2 * d2));
-                }
-        };
         const auto dimmer = [&](Rgba c) { return 1 / (own_light + std::max(0.0f, luminance(c))); };
         Pool clean, mixed, all;
-        each([&](Rgba c, const Mixture* at, float weight) {
-            (at ? mixed : clean).add(c, weight * dimmer(c));
-        });
+        std::array<Shown, kMostShown> shown;
+        std::size_t count = 0;
+        for (int v = window.y0; v < window.y1; ++v)
+            for (int u = window.x0; u < window.x1; ++u) {
+                if (coc_(u, v) > third || coc_(u, v) <= threshold(m)) continue;
+                const float d2 = float((u - x) * (u - x) + (v - y) * (v - y)), near_by = 1 / (1 + d2 * d2);
+                const Rgba c = picture_.dim(u, v);
+                const Mixture* const at = mixtures_.at(u, v);
+                const float weight = near_by * dimmer(c);
+                (at ? mixed : clean).add(c, weight);
+                shown[count++] = {c, at, near_by, weight};
+            }
         const Guess first = (clean.empty() ? mixed : clean).guess();
         const float own = first.variance + least_variance(first.colour, m.errors());
         const float off = m.errors() * completion_model.shape_error;
         const float error = off * off * distance2(near, first.colour) / 3;
-        each([&](Rgba c, const Mixture* at, float weight) {
-            if (!at) return all.add(c, weight * dimmer(c));
-            if (at->lit) return;
-            const float rest = std::max(0.05f, 1 - at->share_by_shape);
-            Rgba cleared = light_only((1 / rest) * (comparable(c) - (1 - rest) * near));
-            cleared.a = c.a;
-            all.add(cleared, weight * dimmer(cleared) * rest * rest * own / (own + error));
-        });
+        for (const Shown& s : std::span(shown).first(count)) {
+            if (!s.at) {
+                all.add(s.colour, s.weight);
+                continue;
+            }
+            if (s.at->lit) continue;
+            const float rest = std::max(0.05f, 1 - s.at->share_by_shape);
+            Rgba cleared = light_only((1 / rest) * (comparable(s.colour) - (1 - rest) * near));
+            cleared.a = s.colour.a;
+            all.add(cleared, s.near_by * dimmer(cleared) * rest * rest * own / (own + error));
+        }
         return all.empty() ? first : all.guess();
     }
 
