@@ -105,6 +105,32 @@ TEST(Hidden, ASliverKeepsItsColourBesideAThirdSurface) {
     EXPECT_GT(m->far_colour.g, 0.5f);  // 0.02 where the clean pixels of the wall count, too
 }
 
+// A hair lies on a coat, before it by too little for a silhouette; a bright floor lies behind both.
+TEST(Hidden, AHairOnACoatHasTheCoatBehindIt) {
+    constexpr float kHairPx = -1.15f, kCoatPx = -0.4f, kFloorPx = 16;
+    constexpr int kFloor = 20, kHair = 26;  // the row where the coat begins, and the hair's column
+    Picture colour(kWidth, kHeight);
+    Plane coc(kWidth, kHeight);
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+            colour(x, y) = grey(y < kFloor ? 0.8f : x == kHair ? 0.01f : 0.02f);
+            coc(x, y) = y < kFloor ? kFloorPx : x == kHair ? kHairPx : kCoatPx;
+        }
+    const Image<unsigned char> connected = connections(coc, one_thread());
+    const LitPicture picture{colour, {}};
+    const Mixtures mixtures = unmix_silhouettes(picture, coc, connected, one_thread());
+    const HiddenLayers hidden =
+        fill_hidden(picture, coc, connected, mixtures, kHairPx, kFloorPx, {}, one_thread());
+    for (int y = kFloor + 2; y < kFloor + 12; ++y) {
+        const auto behind_hair = hidden.at(kHair, y), behind_coat = hidden.at(kHair + 3, y);
+        ASSERT_FALSE(behind_hair.empty()) << y;
+        EXPECT_EQ(behind_hair.front().coc_px, kCoatPx) << y;
+        EXPECT_EQ(behind_hair.front().colour, grey(0.02f)) << y;
+        ASSERT_FALSE(behind_coat.empty()) << y;
+        EXPECT_GT(behind_coat.front().coc_px, 8) << y << ": the floor";
+    }
+}
+
 // A post between a box and a floor that recedes: the floor counts once, however many radii it shows.
 TEST(Hidden, ASlopingFloorLeavesRoomForTheBoxBesideIt) {
     constexpr int kPost = 16, kFloor = 30;  // columns where they begin

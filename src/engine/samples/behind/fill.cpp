@@ -1,4 +1,5 @@
 #include "base/parallel.h"
+#include "engine/samples/behind/beside.h"
 #include "engine/samples/behind/search.h"
 #include "engine/samples/behind/smooth.h"
 #include "engine/samples/completion_model.h"
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace petzval::engine {
 namespace {
@@ -64,6 +66,7 @@ public:
     const KnownSurfaces& known() const { return known_; }
     bool may_hide(int x, int y) const { return search_.may_hide(x, y); }
 
+    std::optional<HiddenGuess> beside(int x, int y) const { return surface_beside(known_, coc_, x, y); }
     // Appends the surfaces behind (x, y), if a lens ray that passes the occluder reaches any of them.
     void fill(int x, int y, std::vector<HiddenGuess>& hidden) const {
         const Mixture* m = mixtures_.at(x, y);
@@ -342,13 +345,18 @@ struct Band {
                 if ((m && !m->shows_far ? m->near_coc_px : coc(x, y)) > rule.hides_before_px) continue;
                 if ((!m || m->shows_far) && !filler.may_hide(x, y)) continue;
                 Range& own = ranges(x, y - rows.y0);
-                if (const Range* known = answers.find(x, y, coc(x, y))) {
+                const auto beside = m ? std::nullopt : filler.beside(x, y);
+                const Range* const known = beside ? nullptr : answers.find(x, y, coc(x, y));
+                if (known) {
                     own = *known;
                     continue;
                 }
                 const std::size_t begin = hidden.size();
+                if (beside) hidden.push_back(*beside);
                 filler.fill(x, y, hidden);
+                hidden.resize(std::min(hidden.size(), begin + kSurfaces));
                 own = range(begin, hidden.size());
+                if (beside) continue;  // neighbours differ from this pixel
                 // Nothing found here; neighbours closer to the silhouette may still find
                 // something.
                 if (own.count == 0) continue;
