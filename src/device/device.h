@@ -94,6 +94,9 @@ public:
     // Writes all of `out`. The CPU has no pass for real time and says so.
     virtual void draw_realtime(const engine::RealtimePlan& plan, Target out,
                                const Control& control) const = 0;
+    // Memory of this process that draw_realtime() takes for a picture of so many pixels, besides the plan and
+    // `out`: the driver's, and of a driver in software the device's memory too.
+    virtual std::size_t realtime_bytes(std::size_t /*pixels*/) const { return 0; }
     // Adds to the plan's rows of `out`, the whole frame.
     virtual Work add_lights(const engine::LightsPlan& plan, const Atlas& atlas, Target out,
                             const Control& control) const = 0;

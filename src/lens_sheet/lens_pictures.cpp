@@ -112,6 +112,18 @@ Status bokeh_volume_fits(const BokehVolumeSettings& settings, std::size_t limit_
     return fits("a volume", side, side * slices, kVolumeBytes * side * side * slices, limit_bytes);
 }
 
+// Measured (docs/results/memory.md).
+Status lens_atlas_fits(const LensAtlasSettings& settings, std::size_t limit_bytes) {
+    constexpr std::size_t kBeside = std::size_t(4) << 20, kTileBytes = 4 * kAtlasTileSide * kAtlasTileSide;
+    const auto zones = std::size_t(settings.zones);
+    return fits_memory("an atlas of " + std::to_string(zones) + " zones",
+                       kBeside + kTileBytes * kAtlasRadii * zones, limit_bytes);
+}
+
+Status lens_report_fits(std::size_t limit_bytes) {
+    return fits_memory("a report of a lens", std::size_t(60) << 20, limit_bytes);
+}
+
 Status write_lens_disc(const std::string& path, const LensDisc& disc, double coc_radius_px, double field_x,
                        double field_y, bool overwrite) {
     Planes planes;

@@ -109,6 +109,16 @@ TEST(LensPicture, IsWrittenInBothFormatsWithItsRecord) {
     EXPECT_NE(volume->record.find("\"verb\":\"lens volume\""), std::string::npos);
 }
 
+TEST(LensPicture, AnAtlasOrAReportThatDoesNotFitIsRefused) {
+    constexpr std::size_t kMebibyte = 1 << 20;
+    EXPECT_TRUE(lens_atlas_fits({.zones = 64}, 8 * kMebibyte)) << "64 x 14 x 31 x 31 x 4 bytes and 4 MiB";
+    EXPECT_EQ(lens_atlas_fits({.zones = 64}, 7 * kMebibyte).error().code, ErrorCode::OutOfMemory);
+    EXPECT_TRUE(lens_atlas_fits({.zones = 1}, 5 * kMebibyte));
+    EXPECT_TRUE(lens_report_fits(0)) << "no limit";
+    EXPECT_TRUE(lens_report_fits(60 * kMebibyte));
+    EXPECT_EQ(lens_report_fits(59 * kMebibyte).error().code, ErrorCode::OutOfMemory);
+}
+
 TEST(LensPicture, NothingIsWrittenForALensOrAFormatThatIsNone) {
     const test::TemporaryFolder folder;
     LensPictureFile file;

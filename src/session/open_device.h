@@ -60,6 +60,7 @@ public:
         note();
         device_.draw_realtime(plan, out, control);
     }
+    std::size_t realtime_bytes(std::size_t pixels) const override { return device_.realtime_bytes(pixels); }
     device::Work add_lights(const engine::LightsPlan& plan, const device::Atlas& atlas, device::Target out,
                             const device::Control& control) const override {
         note();

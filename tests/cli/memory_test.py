@@ -90,6 +90,14 @@ class ShortMemory(CommandLineTest):
             named = int(re.search(r"ulimit -v (\d+) would be enough", refused.err).group(1))
             self.succeed(*command, limits=address_space(named // 1024 + 24))
 
+    def test_an_atlas_and_a_report_that_do_not_fit_are_refused_and_what_is_enough_is_named(self):
+        for words, room in ((["atlas", "doublet", "-o", "atlas", "--zones", "64"], 72 + 2), (["report", "doublet", "-o", "sheet.html"], 90)):
+            command = ["lens", *words]
+            refused = self.refuse(1, *command, limits=address_space(self.least() + room), says=["what ulimit -v leaves", "at least"])
+            self.assertEqual(len(refused.lines), 1)
+            named = int(re.search(r"ulimit -v (\d+) would be enough", refused.err).group(1))
+            self.succeed(*command, limits=address_space(named // 1024 + 24))
+
     def test_a_scene_that_does_not_fit_is_refused_before_it_is_rendered(self):
         refused = self.refuse(1, "scene", "make", "night", "--width", "8000", "--height", "8000", "-o", "big.exr", "-q",
                               limits=address_space(self.least() + 160 + 400), says=["what ulimit -v leaves", "8000 x 8000"])
@@ -101,6 +109,19 @@ class ShortMemory(CommandLineTest):
             _, status, used = os.wait4(run.pid, 0)
             run.returncode = os.waitstatus_to_exitcode(status)
         return run.returncode, used.ru_maxrss / 1024
+
+    def test_a_limit_counts_the_driver_of_a_device(self):
+        self.succeed("scene", "make", "lanterns", "--width", "640", "--height", "360", "--pinhole-samples", "1", "-o", "in.exr")
+        defocus = ["defocus", "in.exr", "-o", "out.exr", "--engine", "realtime", "--device", "gpu", "-q", "--max-memory"]
+        outcome = self.run_program(*defocus, "60M")
+        if outcome.code == 2:
+            self.skipTest("no driver of Vulkan")
+        self.assertEqual(outcome.code, 1, outcome)
+        named = int(re.search(r"takes about (\d+)M", outcome.err).group(1))
+        code, peak = self.peak(*defocus, "%dM" % named)
+        self.assertEqual(code, 0)
+        self.assertLess(peak, 1.2 * named)
+        self.assertGreater(peak, named / 1.2)
 
     def test_a_limit_names_what_is_used(self):
         self.succeed("scene", "make", "table", "--width", "1280", "--height", "720", "--pinhole-samples", "1", "-o", "in.exr")

@@ -1,12 +1,14 @@
 // petzval lens atlas: discs by place in the frame and by radius, for shaders (docs/reference/lens-atlas.md).
 #include "petzval/lens_json.h"
 #include "petzval/lens_kernel.h"
+#include "petzval/lens_report.h"
 
 #include "console/console.h"
 #include "console/interrupt.h"
 #include "flags/run_flags.h"
 #include "flags/values.h"
 #include "guard.h"
+#include "input.h"
 #include "lens/mount.h"
 #include "output.h"
 #include "verbs.h"
@@ -30,6 +32,7 @@ struct AtlasFlags : MountFlags {
 Result<LensAtlas> make_atlas(const MountedLens& mounted, const AtlasFlags& flags) {
     ProgressLine progress(flags.run.progress, flags.run.quiet, "lens atlas");
     LensAtlasSettings settings{flags.largest_coc_px, flags.zones, {}};
+    if (const Status fits = lens_atlas_fits(settings, process_memory_bytes(1)); !fits) return fits.error();
     settings.progress = [&](double share) { return interrupted_by() == 0 && progress(share); };
     return lens_atlas(mounted.lens, mounted.mount, settings);
 }

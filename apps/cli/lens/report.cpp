@@ -9,6 +9,7 @@
 #include "flags/run_flags.h"
 #include "flags/values.h"
 #include "guard.h"
+#include "input.h"
 #include "output.h"
 #include "verbs.h"
 
@@ -123,7 +124,10 @@ void add_lens_report(Verb& lens, Action& chosen) {
     when_typed(verb, [flags, &verb, &chosen] {
         check(*flags, verb);
         flags->run.apply();
-        chosen = [flags] { return flags->lenses.size() == 1 ? report_one(*flags) : report_many(*flags); };
+        chosen = [flags]() -> Status {
+            if (const Status fits = lens_report_fits(process_memory_bytes(0)); !fits) return fits;
+            return flags->lenses.size() == 1 ? report_one(*flags) : report_many(*flags);
+        };
     });
 }
 

@@ -56,6 +56,7 @@ public:
     void draw_realtime(const engine::RealtimePlan& plan, Target out, const Control& control) const override {
         realtime_.draw(plan, out, control.progress);
     }
+    std::size_t realtime_bytes(std::size_t pixels) const override { return realtime_.process_bytes(pixels); }
     Work add_lights(const engine::LightsPlan& plan, const Atlas& atlas, Target out,
                     const Control& control) const override {
         const auto& packed = dynamic_cast<const PackedAtlas&>(atlas);

@@ -162,7 +162,9 @@ Result<Output> run_gather_for(const char* engine, const EngineView& input) {
 Result<Output> run_realtime(const EngineView& input, Spare) {
     const auto start = std::chrono::steady_clock::now();
     constexpr std::size_t kBytesPerPixel = 3 * sizeof(Rgba);
-    if (const Status fits = fits_memory(input, kBytesPerPixel, "realtime"); !fits) return fits.error();
+    const std::size_t drawn =
+        input.services.device->realtime_bytes(std::size_t(input.width()) * std::size_t(input.height()));
+    if (const Status fits = fits_memory(input, kBytesPerPixel, "realtime", drawn); !fits) return fits.error();
     Output output;
     output.canvas = input.services.device->canvas(Picture::uninitialised(input.width(), input.height()));
     const RealtimePlan plan{input.samples.colour,

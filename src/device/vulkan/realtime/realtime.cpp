@@ -198,6 +198,14 @@ private:
 RealtimeDrawer::RealtimeDrawer(Context& context, const RealtimeRule& rule) : context_(context), rule_(rule) {}
 RealtimeDrawer::~RealtimeDrawer() = default;
 
+// Measured with llvmpipe of Mesa 22.3 and NVIDIA's driver 580 (docs/results/memory.md).
+std::size_t RealtimeDrawer::process_bytes(std::size_t pixels) const {
+    constexpr std::size_t kSoftwareDriver = std::size_t(85) << 20, kOfPixel = 88;
+    constexpr std::size_t kHardwareDriver = std::size_t(115) << 20;
+    if (!context_.candidate().is_software) return kHardwareDriver;
+    return kSoftwareDriver + kOfPixel * std::min(pixels, rule_.most_pixels);
+}
+
 int RealtimeDrawer::passes_made() const {
     const std::lock_guard lock(mutex_);
     return passes_made_;

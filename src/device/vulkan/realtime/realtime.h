@@ -32,6 +32,8 @@ public:
     // Writes all of `out`, unless cancelled. Throws Failed. plant: as in RealtimePass::record().
     void draw(const engine::RealtimePlan& plan, Target out, const Progress& progress = {},
               bool plant = false);
+    // Memory of this process that draw() takes for so many pixels, as Device::realtime_bytes() counts it.
+    std::size_t process_bytes(std::size_t pixels) const;
     int passes_made() const;
     // In the last frame, or its last strip: the most lamps that a tile looks at.
     std::uint64_t most_lamps() const;
