@@ -59,6 +59,21 @@ Error invalid_file(const std::string& path, const std::string& what) {
     return {ErrorCode::InvalidFile, printable(path, 4096) + ": " + what};
 }
 
+Error unreadable(const std::string& path, const std::string& message) {
+    // Words of OpenEXR 3.1, libpng 1.6, libjpeg-turbo 2.1 and libtiff 4.5.
+    constexpr std::array kNoMemory{
+        "failed to allocate",   "cannot allocate", "insufficient memory", "out of memory", "no space for ",
+        "insertion in tif_map", "malloc("};
+    const std::string text = lower(message);
+    const bool is_memory = std::any_of(kNoMemory.begin(), kNoMemory.end(), [&](const char* words) {
+        return text.find(words) != std::string::npos;
+    });
+    if (is_memory)
+        return {ErrorCode::OutOfMemory,
+                printable(path, 4096) + ": no memory left to read it: " + printable(message)};
+    return invalid_file(path, "is damaged or not readable: " + printable(message, 500));
+}
+
 Error output_failed(const std::string& path, const std::string& what) {
     return {ErrorCode::OutputFailed, printable(path, 4096) + ": " + what};
 }

@@ -24,6 +24,9 @@ std::string byte_count(std::uint64_t bytes);
 
 // "path: what": an input that cannot be used.
 Error invalid_file(const std::string& path, const std::string& what);
+// The same from the message of a decoder: the file is damaged, or OutOfMemory where the message is about an
+// allocation that failed.
+Error unreadable(const std::string& path, const std::string& message);
 // "path: what": an output that could not be written.
 Error output_failed(const std::string& path, const std::string& what);
 

@@ -2,7 +2,9 @@
 exit code, never with a signal or half a file. PETZVAL_FAULTS names the library that makes calls fail."""
 import json
 import os
+import pathlib
 import random
+import shutil
 import struct
 import unittest
 
@@ -15,7 +17,9 @@ RUNS = (["defocus", "in.0001.exr", "-o", "out.exr"],
         ["defocus", "in.####.exr", "-o", "out.####.png", "--frames", "1-2", "--engine", "gather"],
         ["scene", "make", "tori", "-o", "out.exr", "--width", "32", "--height", "18", "--pinhole-samples", "1"],
         ["scene", "make", "in.gltf", "-o", "out.exr", "--width", "32", "--height", "18", "--pinhole-samples", "1"],
-        ["lens", "psf", "doublet", "-o", "out.exr"])
+        ["lens", "psf", "doublet", "-o", "out.exr"],
+        *(["develop", name, "-o", "out.png"] for name in ("in.jpg", "in.png", "in.tif")))
+CORPUS = pathlib.Path(__file__).resolve().parent.parent / "fuzz/corpus"
 TRIANGLE = {
     "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}], "nodes": [{"mesh": 0}, {"camera": 0}],
     "cameras": [{"type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1}}],
@@ -32,6 +36,8 @@ class SingleFault(CommandLineTest):
             write_exr(self.path("in.%04d.exr" % frame), picture(48, 32, depth=lambda x, y: 1 + x / 40),
                       attributes=camera_attributes(50, 36, 1.4, 2))
 
+        for name in ("jpeg/turned.jpg", "png/a.png", "tiff/rgb16.tif"):
+            shutil.copy(CORPUS / name, self.path("in" + name[-4:]))
         with open(self.path("in.gltf"), "w") as file:
             json.dump(TRIANGLE, file)
         with open(self.path("in.bin"), "wb") as file:
@@ -66,20 +72,25 @@ class SingleFault(CommandLineTest):
                 chosen = sorted({*range(1, 9), *range(count - 7, count + 1), *dice.sample(chosen, EACH // 2),
                                  *dice.sample(late, min(EACH // 2, len(late)))})
             for call in chosen:
-                self.remove_outputs()
-                outcome = self.with_fault(command, f"{kind}:{call}")
-                where = f"{' '.join(command)}, {kind} {call} of {count}\n{outcome}"
-                self.assertIn(outcome.code, codes, where)
-                left = self.outputs()
-                if kind == "read" and outcome.code != 0:  # a farm tries again, and a user knows what to look at
-                    self.assertIn(": cannot be read: Input/output error", outcome.err, where)
-                    self.assertRegex(outcome.err, r"in\.(000[12]\.exr|gltf|bin): cannot", where)
-                if outcome.code == 0:
-                    self.assertEqual(left, right, where)
-                else:
-                    self.assertTrue(outcome.lines and outcome.lines[-1].startswith("petzval: "), where)
-                    for name, content in left.items():  # another frame of the shot
-                        self.assertEqual(content, right.get(name), where)
+                self.check_call(command, kind, call, codes, right)
+
+    def check_call(self, command, kind, call, codes, right):
+        """One run; `right` are the outputs of a run without a fault. Returns its exit code."""
+        self.remove_outputs()
+        outcome = self.with_fault(command, f"{kind}:{call}")
+        where = f"{' '.join(command)}, {kind} {call}\n{outcome}"
+        self.assertIn(outcome.code, codes, where)
+        left = self.outputs()
+        if kind == "read" and outcome.code != 0:  # a farm tries again, and a user knows what to look at
+            self.assertIn(": cannot be read: Input/output error", outcome.err, where)
+            self.assertRegex(outcome.err, r"in\.(000[12]\.exr|gltf|bin|jpg|png|tif): cannot", where)
+        if outcome.code == 0:
+            self.assertEqual(left, right, where)
+        else:
+            self.assertTrue(outcome.lines and outcome.lines[-1].startswith("petzval: "), where)
+            for name, content in left.items():  # another frame of the shot
+                self.assertEqual(content, right.get(name), where)
+        return outcome.code
 
     def test_an_allocation(self):
         self.check("malloc", (0, 1))

@@ -128,7 +128,7 @@ Status caught(const std::string& path, const std::function<Status()>& body) {
         // Our message, after OpenEXR's description of the step.
         if (const std::size_t at = what.rfind("it ends too early"); at != std::string::npos)
             what.erase(0, at);
-        return invalid_file(path, "is damaged or not readable: " + what);
+        return unreadable(path, what);
     } catch (...) {
         return invalid_file(path, "is damaged or not readable");
     }

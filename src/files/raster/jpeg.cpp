@@ -145,7 +145,7 @@ void read_markers(const Reading& r, Raster& out) {
 
 Error error_of(const InputFile& file, const Reading& r) {
     if (r.cancelled) throw Cancelled{};
-    return invalid_file(file.path(), "is damaged or not readable: " + printable(r.message.data()));
+    return unreadable(file.path(), r.message.data());
 }
 
 }  // namespace

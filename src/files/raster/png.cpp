@@ -157,7 +157,7 @@ std::vector<png_bytep> row_pointers(std::vector<png_byte>& bytes, int height) {
 
 Error png_error_of(const InputFile& file, const PngReading& r) {
     if (r.cancelled) throw Cancelled{};
-    return invalid_file(file.path(), "is damaged or not readable: " + printable(r.message));
+    return unreadable(file.path(), r.message);
 }
 
 // Reads the header only when `pixels` is false.

@@ -274,8 +274,7 @@ Result<Raster> read_tiff(const InputFile& file, const ReadOptions& options, bool
     Source source{file};
     const File tiff = opened(source);
     const auto damaged = [&](const std::string& what) {
-        const std::string why = source.message[0] ? printable(source.message.data()) : what;
-        return invalid_file(file.path(), "is damaged or not readable: " + why);
+        return unreadable(file.path(), source.message[0] ? source.message.data() : what);
     };
     if (!tiff) return damaged("no TIFF");
     Layout layout;
