@@ -13,7 +13,7 @@
 namespace petzval::engine {
 namespace {
 
-constexpr int kAcross = 128, kDown = 96;
+constexpr int kFrameWidth = 128, kFrameHeight = 96;
 
 // A grey surface at one radius, through the ideal lens.
 struct Grey {
@@ -22,7 +22,7 @@ struct Grey {
     std::vector<std::unique_ptr<const kernel::LensModel>> levels;
     EngineView input;
 
-    explicit Grey(float radius_px, int width = kAcross, int height = kDown)
+    explicit Grey(float radius_px, int width = kFrameWidth, int height = kFrameHeight)
         : colour(width, height, {0.2f, 0.2f, 0.2f, 1}), coc_px(width, height, radius_px) {
         levels.push_back(kernel::make_lens(LensChoice{}, {{50, 36, 1.4, 2}, width, height}).value());
         input.lens.levels = levels;
@@ -38,7 +38,7 @@ struct Grey {
 TEST(PeakMemory, ASurfaceHasOneSourcePerPixelUpToEightPixelsAndFewerBeyond) {
     const LevelRule rule{.largest_cells = 8};
     const auto cells = [&](float radius_px) {
-        return cells_per_pixel(Plane(kAcross, kDown, radius_px), rule, one_thread());
+        return cells_per_pixel(Plane(kFrameWidth, kFrameHeight, radius_px), rule, one_thread());
     };
     EXPECT_EQ(cells(0), 1);
     EXPECT_EQ(cells(-8), 1);
