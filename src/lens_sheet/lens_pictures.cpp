@@ -114,10 +114,10 @@ Status bokeh_volume_fits(const BokehVolumeSettings& settings, std::size_t limit_
 
 // Measured (docs/results/memory.md).
 Status lens_atlas_fits(const LensAtlasSettings& settings, std::size_t limit_bytes) {
-    constexpr std::size_t kBeside = std::size_t(4) << 20, kTileBytes = 4 * kAtlasTileSide * kAtlasTileSide;
+    constexpr std::size_t kBeside = std::size_t(4) << 20, kSide = kAtlasTileSide;
     const auto zones = std::size_t(settings.zones);
     return fits_memory("an atlas of " + std::to_string(zones) + " zones",
-                       kBeside + kTileBytes * kAtlasRadii * zones, limit_bytes);
+                       kBeside + 4 * kSide * kSide * kAtlasRadii * zones, limit_bytes);
 }
 
 Status lens_report_fits(std::size_t limit_bytes) {
