@@ -126,7 +126,7 @@ Status check_request(const FrameRequest& request) {
             look.engine);
     if (request.view == ScatterView::Hidden && !(look.coc == CocControls{}))
         return invalid(
-            "the view of hidden surfaces needs the depth behind each radius, so it excludes "
+            "the view of hidden surfaces needs the depth behind each radius, so it cannot be combined with "
             "focus.range_m, focus.near_scale, focus.far_scale or focus.max_radius_px");
     if (look.gaussian.along_ray && has_radii(rendered))
         return invalid("gaussian.depth_along ray counts metres; radii were given");

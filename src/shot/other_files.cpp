@@ -107,7 +107,7 @@ Status read_behind(Reading& r) {
         return Error{ErrorCode::InvalidArgument,
                      "shot.behind " + path + ": " + r.source.path +
                          " is deep and holds what it hides itself; shot.merge adds another deep picture"};
-    auto hidden = read_other(r, "behind", path);
+    auto hidden = read_other(r, "plate", path);
     if (!hidden) return hidden.error();
     if (Status same = same_frame(r, hidden->frame, "shot.behind " + path); !same) return same;
     const Rect &theirs = hidden->frame.place.data_window, &ours = r.shot.place.data_window;
@@ -118,7 +118,7 @@ Status read_behind(Reading& r) {
     r.shot.behind = shot::samples_of(hidden->frame);
     if (theirs == ours) return Done{};
     r.shot.behind = merge_deep({{&r.shot.behind, theirs}}, ours);
-    r.shot.detected.push_back("behind: covers " + window_text(theirs) +
+    r.shot.detected.push_back("plate: covers " + window_text(theirs) +
                               "; only the part inside the picture's " + window_text(ours) + " is used");
     return Done{};
 }

@@ -166,7 +166,7 @@ class Defocus(CommandLineTest):
         write_exr(self.path("hidden.exr"), picture(32, 20, 1, 4, alpha=1))
         self.succeed("defocus", "near.exr", "-o", "without.exr", *CAMERA)
         report = self.report("defocus", "near.exr", "-o", "with.exr", *CAMERA, "--behind", "hidden.exr")
-        self.assertTrue(any(l.startswith("behind: ") for l in report["detected"]))
+        self.assertTrue(any(l.startswith("plate: ") for l in report["detected"]))
         self.assertTrue(read_exr(self.path("with.exr"))[0]["R"] != read_exr(self.path("without.exr"))[0]["R"])
 
     def test_a_clean_plate_may_cover_more_than_the_picture_or_less(self):
