@@ -50,7 +50,7 @@ petzval_component(petzval_lib_files PACKAGE petzval-files HEADERS ${headers}/fil
                   ${headers}/focus_track.h
                   REQUIRES petzval OpenEXR libpng libdeflate libisal ${raster_modules}
                   DESCRIPTION "EXR, PNG, JPEG and TIFF for petzval")
-foreach(folder farm shots)
+foreach(folder farm reports shots)
   file(GLOB folder_headers CONFIGURE_DEPENDS ${headers}/${folder}/*.h)
   install(FILES ${folder_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/petzval/${folder})
 endforeach()

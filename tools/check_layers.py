@@ -66,6 +66,7 @@ TESTS = {
     "device/cpu": {"glare", "kernel/draw", "kernel/lenses"},
     "session/rendered": {"lens_facts", "session"},
     "session": {"lens_facts"},
+    "farm": {"session"},
 }
 # Devices know plans, the data that engines leave, and nothing else of engines.
 PLANS = re.compile(r"(engine/\w+|glare)/(\w+_)?plan\.h")
@@ -125,6 +126,8 @@ PUBLIC = {
     "track": "sequence",
     "run_files": "sequence",
     "records": "records",
+    "reports/stopwatch": "base",
+    "reports/words": "base",
     "display_files": "files",
     "frame_loop": "sequence",
     "shot_run": "sequence",

@@ -23,6 +23,7 @@ struct CompareFlags {
     FrameFlags frames;
     OverwriteFlags overwrite;
     RunFlags run;
+    bool is_shot = false;
 };
 
 std::string table(const Comparison& c) {
@@ -112,6 +113,16 @@ Status compare_frames(const CompareFlags& flags) {
     return make_frames(flags.frames, flags.run, std::move(work));
 }
 
+void check(CompareFlags& flags, const Verb& verb) {
+    require_argument(verb, flags.reference.path, "REF and TEST");
+    require_argument(verb, flags.test, "TEST, the picture to judge");
+    flags.run.apply();
+    flags.overwrite.check();
+    if (!flags.output.empty()) require_png(flags.output);
+    flags.reference.read.need_depth = false;
+    flags.is_shot = is_sequence(flags.frames, {flags.reference.path, flags.test}, flags.output, flags.run);
+}
+
 }  // namespace
 
 void add_compare(Verb& program, Action& chosen) {
@@ -139,19 +150,8 @@ void add_compare(Verb& program, Action& chosen) {
     flags->frames.add_to(verb);
     flags->run.add_json_to(verb);
     flags->run.add_log_to(verb, false);
-    when_typed(verb, [flags, &verb, &chosen] {
-        require_argument(verb, flags->reference.path, "REF and TEST");
-        require_argument(verb, flags->test, "TEST, the picture to judge");
-        flags->run.apply();
-        flags->overwrite.check();
-        if (const auto kind = kind_of_output(flags->output);
-            !flags->output.empty() && (!kind || *kind != FileKind::Png))
-            throw UsageError("-o " + flags->output + ": the name must end in .png");
-        flags->reference.read.need_depth = false;
-        const bool many =
-            is_sequence(flags->frames, {flags->reference.path, flags->test}, flags->output, flags->run);
-        chosen = [flags, many] { return many ? compare_frames(*flags) : compare_pair(*flags); };
-    });
+    when_typed(verb, chosen, flags, check,
+               [](const auto& given) { return given.is_shot ? compare_frames(given) : compare_pair(given); });
 }
 
 }  // namespace petzval::cli

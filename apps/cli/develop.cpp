@@ -52,8 +52,7 @@ Status develop_one(const DevelopVerbFlags& flags, const Lens& lens) {
     const bool is_kept = made->state == FrameRecord::State::Kept;
     if (is_kept)
         for (const std::string& line : damage_of_kept({flags.output})) warning(line);
-    if (is_kept || flags.run.json.empty()) return Done{};
-    return write_report(Json::parse(made->record), flags.run.json);
+    return is_kept ? Status(Done{}) : write_record(made->record, flags.run.json);
 }
 
 Status develop_all(const DevelopVerbFlags& flags) {
@@ -77,14 +76,11 @@ void check(DevelopVerbFlags& flags, const Verb& verb) {
         throw UsageError(
             "camera and lens are for glare, as in --star 0.1 --blades 6; without it they have no "
             "effect");
-    const auto kind = kind_of_output(flags.output);
-    if (!kind || *kind != FileKind::Png)
-        throw UsageError("-o " + flags.output + ": the name must end in .png");
+    require_png(flags.output);
     flags.input.read.need_depth = false;
     flags.ocio.check(flags.develop, flags.input.transfer);
-    if (is_sequence(flags.frames, {flags.input.path}, flags.output, flags.run) &&
-        !has_pattern(flags.input.path))
-        throw UsageError("no frames: the input has no #### or %04d");
+    if (is_sequence(flags.frames, {flags.input.path}, flags.output, flags.run))
+        require_frames(has_pattern(flags.input.path));
 }
 
 }  // namespace
@@ -113,10 +109,7 @@ void add_develop(Verb& program, Action& chosen) {
         .on("--no-dither", "round without dither, the noise that hides bands", flags->no_dither);
     flags->run.add_threads_to(verb);
     flags->run.add_log_to(verb, false);
-    when_typed(verb, [flags, &verb, &chosen] {
-        check(*flags, verb);
-        chosen = [flags] { return develop_all(*flags); };
-    });
+    when_typed(verb, chosen, flags, check, develop_all);
 }
 
 }  // namespace petzval::cli

@@ -54,8 +54,7 @@ void check(FocusTrackFlags& flags, const Verb& verb) {
         if (flags.picks[i - 1].frame == flags.picks[i].frame)
             throw UsageError("--at: frame " + std::to_string(flags.picks[i].frame) +
                              " twice; a pixel without a frame stands alone");
-    if (!is_sequence(flags.frames, {flags.input.path, flags.input.read.depth_file}, "", flags.run))
-        throw UsageError("no frames: the input has no #### or %04d");
+    require_frames(is_sequence(flags.frames, {flags.input.path, flags.input.read.depth_file}, "", flags.run));
 }
 
 Status track_focus(const FocusTrackFlags& flags) {
@@ -95,10 +94,7 @@ void add_focus_track(Verb& program, Action& chosen) {
     flags->overwrite.add_to(verb, false);
     flags->frames.add_to(verb);
     flags->run.add_log_to(verb, true);
-    when_typed(verb, [flags, &verb, &chosen] {
-        check(*flags, verb);
-        chosen = [flags] { return track_focus(*flags); };
-    });
+    when_typed(verb, chosen, flags, check, track_focus);
 }
 
 }  // namespace petzval::cli

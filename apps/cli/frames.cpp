@@ -18,12 +18,6 @@ namespace {
 const NameTable<MissingFiles> kMissing{
     {"fail", MissingFiles::Fail}, {"skip", MissingFiles::Skip}, {"black", MissingFiles::Black}};
 
-std::optional<FramePattern> pattern_in(const std::string& path) {
-    const auto found = FramePattern::find(path);
-    if (!found) throw UsageError(found.error().message);
-    return *found;
-}
-
 }  // namespace
 
 void FrameFlags::add_to(Verb& verb) {
@@ -45,15 +39,10 @@ std::vector<std::string> FrameFlags::given() const {
     return names;
 }
 
-bool has_pattern(const std::string& path) { return pattern_in(path).has_value(); }
-
-std::string at_frame(const std::string& path, int frame) {
-    const auto pattern = pattern_in(path);
-    return pattern ? pattern->path(frame) : path;
-}
-
-void put_frame(int frame, const std::vector<std::string*>& paths) {
-    for (std::string* path : paths) *path = at_frame(*path, frame);
+bool has_pattern(const std::string& path) {
+    const auto found = FramePattern::find(path);
+    if (!found) throw UsageError(found.error().message);
+    return found->has_value();
 }
 
 bool is_sequence(const FrameFlags& frames, const std::vector<std::string>& inputs, const std::string& output,
@@ -69,6 +58,10 @@ bool is_sequence(const FrameFlags& frames, const std::vector<std::string>& input
     if (!run.json.empty() && !has_pattern(run.json))
         throw UsageError("--json of many frames needs #### or %04d in its name; --report takes them all");
     return true;
+}
+
+void require_frames(bool is_shot) {
+    if (!is_shot) throw UsageError("no frames: the input has no #### or %04d");
 }
 
 FrameLoopHost terminal() {

@@ -32,18 +32,17 @@ struct FramesFailed {
     int exit_code = 4;
 };
 
-// Throw UsageError for a name that is not a pattern and looks like one.
+// Throws UsageError for a name that is not a pattern and looks like one.
 bool has_pattern(const std::string& path);
-// The path of a frame; one without a place for a number as it is.
-std::string at_frame(const std::string& path, int frame);
-// Puts the frame number into every path.
-void put_frame(int frame, const std::vector<std::string*>& paths);
 
 // True if the flags describe more than one frame: `inputs` or `output` hold a placeholder for a number, or
 // frames were given. An empty `output` means there is none. Throws UsageError if the flags contradict each
 // other.
 bool is_sequence(const FrameFlags& frames, const std::vector<std::string>& inputs, const std::string& output,
                  const RunFlags& run);
+
+// Throws UsageError unless a verb that only works on shots was given one.
+void require_frames(bool is_shot);
 
 // Messages and cancelling on this program's terminal.
 FrameLoopHost terminal();

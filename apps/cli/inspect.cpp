@@ -26,6 +26,7 @@ struct InspectFlags {
     double permissible_radius_px = 1;
     FrameFlags frames;
     RunFlags run;
+    bool is_shot = false;
 };
 
 // R, G, B, A in this order, then the rest as the file has it: by the alphabet.
@@ -190,6 +191,15 @@ Status inspect_frames(const InspectFlags& flags) {
     return make_frames(flags.frames, flags.run, std::move(work));
 }
 
+void check(InspectFlags& flags, const Verb& verb) {
+    require_argument(verb, flags.input.path, "a file");
+    flags.run.apply();
+    flags.input.check();
+    flags.camera.check();
+    flags.input.read.need_depth = false;
+    flags.is_shot = is_sequence(flags.frames, {flags.input.path, flags.input.read.depth_file}, "", flags.run);
+}
+
 }  // namespace
 
 void add_inspect(Verb& program, Action& chosen) {
@@ -207,16 +217,8 @@ void add_inspect(Verb& program, Action& chosen) {
     flags->frames.add_to(verb);
     flags->run.add_json_to(verb);
     flags->run.add_log_to(verb, false);
-    when_typed(verb, [flags, &verb, &chosen] {
-        require_argument(verb, flags->input.path, "a file");
-        flags->run.apply();
-        flags->input.check();
-        flags->camera.check();
-        flags->input.read.need_depth = false;
-        const bool many =
-            is_sequence(flags->frames, {flags->input.path, flags->input.read.depth_file}, "", flags->run);
-        chosen = [flags, many] { return many ? inspect_frames(*flags) : inspect(*flags); };
-    });
+    when_typed(verb, chosen, flags, check,
+               [](const auto& given) { return given.is_shot ? inspect_frames(given) : inspect(given); });
 }
 
 }  // namespace petzval::cli

@@ -55,6 +55,11 @@ void DevelopFlags::refuse(const std::string& why) const {
         if (given) throw UsageError(std::string(name) + " " + why);
 }
 
+void require_png(const std::string& output) {
+    const auto kind = kind_of_output(output);
+    if (!kind || *kind != FileKind::Png) throw UsageError("-o " + output + ": the name must end in .png");
+}
+
 Status write_text(const std::string& path, const std::string& text) {
     if (path != "-") return is_left_alone(path) ? Status(Done{}) : petzval::write_text(path, text);
     if (print(text)) return Done{};

@@ -32,6 +32,9 @@ struct DevelopFlags : DisplayChoice {
     void refuse(const std::string& why) const;
 };
 
+// Throws UsageError if the output does not end in .png.
+void require_png(const std::string& output);
+
 // petzval::write_text(); "-" is standard output.
 Status write_text(const std::string& path, const std::string& text);
 

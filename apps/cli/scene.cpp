@@ -167,9 +167,7 @@ Status make_scene(const MakeFlags& flags) {
     files.settings.progress = shown.progress;
     const auto made = make_scene_files(files, shown.host);
     if (!made) return made.error();
-    return flags.run.json.empty() || made->record.empty()
-               ? Status(Done{})
-               : write_report(Json::parse(made->record), flags.run.json);
+    return write_record(made->record, flags.run.json);
 }
 
 Status make_scenes(const MakeFlags& flags) {
@@ -220,11 +218,11 @@ void add_make(Verb& scene, Action& chosen) {
         "petzval scene make fence -o fence.exr --truth truth.exr --width 480 --height 270 --fstop 4");
     auto flags = std::make_shared<MakeFlags>();
     flags->add_to(verb);
-    when_typed(verb, [flags, &verb, &chosen] {
-        flags->check(verb);
-        const bool many = !flags->frames.frames.empty();
-        chosen = [flags, many] { return many ? make_scenes(*flags) : make_scene(*flags); };
-    });
+    when_typed(
+        verb, chosen, flags, [](MakeFlags& typed, const Verb& of) { typed.check(of); },
+        [](const auto& given) {
+            return given.frames.frames.empty() ? make_scene(given) : make_scenes(given);
+        });
 }
 
 }  // namespace

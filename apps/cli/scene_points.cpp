@@ -74,9 +74,7 @@ Status make_file(const PointsFlags& flags) {
     file.existing = flags.overwrite.existing();
     const auto made = make_points_file(file, terminal());
     if (!made) return made.error();
-    return flags.run.json.empty() || made->record.empty()
-               ? Status(Done{})
-               : write_report(Json::parse(made->record), flags.run.json);
+    return write_record(made->record, flags.run.json);
 }
 
 }  // namespace
@@ -88,10 +86,8 @@ void add_scene_points(Verb& scene, Action& chosen) {
                  "petzval defocus dusk.exr -o out.exr --engine sprites --points city.csv");
     auto flags = std::make_shared<PointsFlags>();
     flags->add_to(verb);
-    when_typed(verb, [flags, &verb, &chosen] {
-        flags->check(verb);
-        chosen = [flags] { return make_file(*flags); };
-    });
+    when_typed(
+        verb, chosen, flags, [](PointsFlags& typed, const Verb& of) { typed.check(of); }, make_file);
 }
 
 }  // namespace petzval::cli

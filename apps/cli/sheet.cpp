@@ -32,7 +32,6 @@ struct SheetFlags {
 };
 
 Status make_lens_sheet(const SheetFlags& flags) {
-    if (flags.overwrite.skips({flags.output})) return Done{};
     LensViewFile file = flags.lenses.file(flags.input);
     file.sheet.cell_width_px = flags.width_px.value_or(480);
     file.sheet.columns = flags.columns;
@@ -50,7 +49,6 @@ Status make_lens_sheet(const SheetFlags& flags) {
 }
 
 Status make_frame_sheet(const SheetFlags& flags) {
-    if (flags.overwrite.skips({flags.output})) return Done{};
     ShotSheet sheet;
     sheet.source = flags.input.source();
     sheet.display = flags.develop;
@@ -63,6 +61,11 @@ Status make_frame_sheet(const SheetFlags& flags) {
     sheet.threads = flags.run.threads;
     sheet.overwrite = !flags.overwrite.no_clobber;
     return make_frames(flags.frames, flags.run, work_of(std::move(sheet), terminal()));
+}
+
+Status make_sheet(const SheetFlags& flags) {
+    if (flags.overwrite.skips({flags.output})) return Done{};
+    return flags.lenses.is_on() ? make_lens_sheet(flags) : make_frame_sheet(flags);
 }
 
 void check(SheetFlags& flags, const Verb& verb) {
@@ -82,8 +85,7 @@ void check(SheetFlags& flags, const Verb& verb) {
             throw UsageError("--lenses shows one picture: give one frame of " + flags.input.path);
         return;
     }
-    if (!is_sequence(flags.frames, {flags.input.path}, "", flags.run))
-        throw UsageError("no frames: the input has no #### or %04d");
+    require_frames(is_sequence(flags.frames, {flags.input.path}, "", flags.run));
 }
 
 }  // namespace
@@ -115,12 +117,7 @@ void add_sheet(Verb& program, Action& chosen) {
     flags->frames.add_to(verb);
     flags->run.add_threads_to(verb);
     flags->run.add_log_to(verb, true);
-    when_typed(verb, [flags, &verb, &chosen] {
-        check(*flags, verb);
-        chosen = [flags] {
-            return flags->lenses.is_on() ? make_lens_sheet(*flags) : make_frame_sheet(*flags);
-        };
-    });
+    when_typed(verb, chosen, flags, check, make_sheet);
 }
 
 }  // namespace petzval::cli

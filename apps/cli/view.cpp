@@ -1,6 +1,7 @@
 // petzval view: a window. apps/view draws it; this file holds its flags and the services it needs: command
 // lines, frames written like those of defocus, OpenColorIO.
 #include "petzval/lens_facts.h"
+#include "petzval/reports/words.h"
 #include "petzval/scene.h"
 
 #include "console/console.h"
@@ -46,17 +47,6 @@ Result<int> parse_port(const std::string& text) {
 }
 
 #ifdef PETZVAL_VIEW
-
-// The word quoted for a shell.
-std::string shell_word(const std::string& word) {
-    if (word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./,+=:%@") ==
-            std::string::npos &&
-        !word.empty())
-        return word;
-    std::string safe = "'";
-    for (const char c : word) safe += c == '\'' ? "'\\''" : std::string(1, c);
-    return safe + "'";
-}
 
 void add_number(std::vector<std::string>& words, const char* flag, const std::optional<double>& value) {
     if (value) words.insert(words.end(), {flag, plain(*value, 9)});

@@ -113,16 +113,6 @@ Result<std::string> write_farm_file(const FarmShot& shot, const FarmFile& file) 
     return path;
 }
 
-std::string farm::quoted(const std::string& word) {
-    const auto is_plain = [](unsigned char c) {
-        return std::isalnum(c) || std::string_view("/._-+,=:@%").find(char(c)) != std::string::npos;
-    };
-    if (!word.empty() && std::all_of(word.begin(), word.end(), is_plain)) return word;
-    std::string text = "'";
-    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return text + "'";
-}
-
 std::vector<std::string> farm::chunks(const FarmShot& shot, int size) {
     std::vector<std::string> lists;
     const std::span<const int> all(shot.frames);

@@ -6,7 +6,7 @@ namespace petzval::farm {
 Result<FarmFile> list_file(const FarmShot& shot) {
     std::string text;
     for (const std::string& frames : chunks(shot, shot.chunk))
-        text += quoted(shot.folder + "/run.sh") + " " + frames + "\n";
+        text += shell_word(shot.folder + "/run.sh") + " " + frames + "\n";
     return FarmFile{"commands", text};
 }
 

@@ -35,7 +35,7 @@ std::string layer(const FarmShot& shot) {
     const auto add = [&](const char* name, const std::string& value) {
         text += "          " + element(name, value) + "\n";
     };
-    add("cmd", quoted(shot.folder + "/run.sh") + " #FRAMESPEC#");
+    add("cmd", shell_word(shot.folder + "/run.sh") + " #FRAMESPEC#");
     add("range", frames_text(shot.frames));
     add("chunk", std::to_string(shot.chunk));
     add("cores", std::to_string(std::max(shot.threads, 1)));

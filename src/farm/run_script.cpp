@@ -35,12 +35,13 @@ exit $code
 
 std::string run_script(const FarmShot& shot) {
     std::string text = kBefore;
-    text += "cd " + quoted(shot.working_folder) + " || { echo 'petzval-farm: failed: retry' >&2; exit 1; }\n";
-    text += "records=" + quoted(shot.folder + "/records") + "\n";
+    text +=
+        "cd " + shell_word(shot.working_folder) + " || { echo 'petzval-farm: failed: retry' >&2; exit 1; }\n";
+    text += "records=" + shell_word(shot.folder + "/records") + "\n";
     text += "mkdir -p \"$records\"\n";
     text += "record=$records/${frames%%[,x]*}.$(uname -n).$$.jsonl\n";
     if (shot.threads == 0) text += kThreads;
-    for (const std::string& word : shot.command) text += quoted(word) + " ";
+    for (const std::string& word : shot.command) text += shell_word(word) + " ";
     text += "\\\n    --frames=\"$frames\" --report \"$record\"";
     if (shot.threads > 0) text += " --threads " + std::to_string(shot.threads);
     if (shot.threads == 0) text += " ${threads:+--threads \"$threads\"}";

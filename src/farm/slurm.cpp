@@ -46,8 +46,8 @@ Result<FarmFile> slurm_file(const FarmShot& shot) {
     text += "chunks=(\n";
     for (const std::string& frames : lists) text += "    " + frames + "\n";
     text += ")\n";
-    text +=
-        quoted(shot.folder + "/run.sh") + " \"${chunks[${SLURM_ARRAY_TASK_ID:?an element of an array}]}\"\n";
+    text += shell_word(shot.folder + "/run.sh") +
+            " \"${chunks[${SLURM_ARRAY_TASK_ID:?an element of an array}]}\"\n";
     return FarmFile{"petzval.sbatch", text + kRetry};
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "petzval/farm/jobs.h"
+#include "petzval/reports/words.h"
 
 #include <string>
 #include <vector>
@@ -17,8 +18,6 @@ Result<FarmFile> flamenco_file(const FarmShot& shot);
 Result<FarmFile> openjd_file(const FarmShot& shot);
 Result<FarmFile> opencue_file(const FarmShot& shot);
 
-// Quoted for a POSIX shell.
-std::string quoted(const std::string& word);
 // Frame lists of all chunks, as in the command line: "1001-1010", "1001-1019x2".
 std::vector<std::string> chunks(const FarmShot& shot, int size);
 bool is_without_gaps(const std::vector<int>& frames);

@@ -2,8 +2,9 @@
 #include "petzval/display_files.h"
 #include "petzval/lens_json.h"
 #include "petzval/lens_report.h"
+#include "petzval/reports/stopwatch.h"
+#include "petzval/reports/words.h"
 
-#include "base/words.h"
 #include "records/record_json.h"
 
 #include <utility>
@@ -96,7 +97,7 @@ const char* verb_of(const LensPictureFile& file) {
 
 Result<LensPictureMade> make_lens_picture(LensPictureFile file,
                                           const std::function<void(const LensPictureMade&)>& drawn) {
-    const records::Stopwatch watch;
+    const Stopwatch watch;
     const auto kind = kind_of_output(file.output);
     if (!kind) return kind.error();
     if (Status done = read_lens_images(file.look); !done) return done.error();

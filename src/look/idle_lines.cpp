@@ -1,6 +1,5 @@
 #include "petzval/look_check.h"
-
-#include "base/words.h"
+#include "petzval/reports/words.h"
 
 #include <algorithm>
 #include <utility>

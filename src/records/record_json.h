@@ -3,8 +3,6 @@
 
 #include "petzval/records.h"
 
-#include <chrono>
-
 #include <nlohmann/json.hpp>
 
 namespace petzval::records {
@@ -20,15 +18,5 @@ inline Json number(double value) { return Json::parse(record_of_number(value)); 
 
 // Seconds of each stage, and their sums: those with a separate name, and `compute`, out of `seconds`.
 void add_stages(Json& record, const std::vector<StageTime>& stages, double seconds);
-
-// Seconds since its making.
-class Stopwatch {
-public:
-    double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-
-private:
-    using Clock = std::chrono::steady_clock;
-    Clock::time_point start_ = Clock::now();
-};
 
 }  // namespace petzval::records

@@ -2,9 +2,9 @@
 
 #include "petzval/look_json.h"
 #include "petzval/names.h"
+#include "petzval/reports/words.h"
 #include "petzval/version.h"
 
-#include "base/words.h"
 #include "records/record_json.h"
 
 #include <cmath>

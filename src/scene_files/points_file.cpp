@@ -1,8 +1,9 @@
 #include "petzval/output.h"
+#include "petzval/reports/stopwatch.h"
+#include "petzval/reports/words.h"
 #include "petzval/shot.h"
 #include "petzval/shots/scene_files.h"
 
-#include "base/words.h"
 #include "records/record_json.h"
 
 namespace petzval {
@@ -32,7 +33,7 @@ records::Json record_of(const PointsFile& file, std::size_t count) {
 }  // namespace
 
 Result<FrameRecord> make_points_file(const PointsFile& file, const FrameLoopHost& host) {
-    const records::Stopwatch total;
+    const Stopwatch total;
     const auto note = [&](const std::string& line) {
         if (host.say) host.say(Say::Note, line);
     };

@@ -3,6 +3,7 @@
 #include "petzval/frames.h"
 #include "petzval/output.h"
 #include "petzval/records.h"
+#include "petzval/reports/stopwatch.h"
 #include "petzval/shot.h"
 
 #include "records/record_json.h"
@@ -14,7 +15,6 @@ namespace {
 
 using records::as_text;
 using records::Json;
-using records::Stopwatch;
 
 void say(const FrameLoopHost& host, Say how, const std::string& line) {
     if (host.say) host.say(how, line);

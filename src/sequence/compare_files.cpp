@@ -3,6 +3,7 @@
 #include "petzval/display_files.h"
 #include "petzval/frames.h"
 #include "petzval/place.h"
+#include "petzval/reports/stopwatch.h"
 #include "petzval/views.h"
 
 #include "records/record_json.h"
@@ -145,7 +146,7 @@ Result<Pictures> read(const CompareFiles& files, const FrameLoopHost& host) {
 }  // namespace
 
 Result<ComparedFiles> compare_files(const CompareFiles& files, const FrameLoopHost& host) {
-    const records::Stopwatch watch;
+    const Stopwatch watch;
     const auto pictures = read(files, host);
     if (!pictures) return pictures.error();
     const auto& [reference, test, mask, non_finite] = *pictures;

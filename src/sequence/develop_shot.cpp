@@ -3,6 +3,7 @@
 #include "petzval/frames.h"
 #include "petzval/names.h"
 #include "petzval/place.h"
+#include "petzval/reports/stopwatch.h"
 #include "petzval/session.h"
 
 #include "records/record_json.h"
@@ -81,7 +82,7 @@ Result<Picture> shown_by(const ShotRunHost& host, Shot& shot, DevelopSettings& d
 }  // namespace
 
 Result<FrameRecord> develop_picture(const DevelopShot& settings, const Lens& lens, const ShotRunHost& host) {
-    const records::Stopwatch total;
+    const Stopwatch total;
     const MadeWith made_with = made_with_of(settings);
     const OutputState there =
         state_of({settings.output}, files_of(settings.source), settings.existing, &made_with);

@@ -2,7 +2,8 @@
 // move so.
 #pragma once
 
-#include "base/words.h"
+#include "petzval/reports/words.h"
+
 #include "records/record_json.h"
 
 #include <cmath>

@@ -5,8 +5,9 @@
 #include "petzval/names.h"
 #include "petzval/output.h"
 #include "petzval/records.h"
+#include "petzval/reports/stopwatch.h"
+#include "petzval/reports/words.h"
 
-#include "base/words.h"
 #include "records/record_json.h"
 
 #include <algorithm>
@@ -283,7 +284,7 @@ Status FrameLoop::State::keep(FrameRecord record) {
 }
 
 Status FrameLoop::State::make(int frame, std::size_t number) {
-    const records::Stopwatch watch;
+    const Stopwatch watch;
     const auto of = files(frame);
     if (!of) return of.error();
     const Result<FrameRecord> done = contains(black, frame) ? made_black(frame, *of) : made(frame, *of);

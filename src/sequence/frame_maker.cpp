@@ -3,9 +3,8 @@
 #include "petzval/lens_facts.h"
 #include "petzval/look_json.h"
 #include "petzval/names.h"
+#include "petzval/reports/words.h"
 #include "petzval/version.h"
-
-#include "base/words.h"
 
 #include <algorithm>
 #include <filesystem>

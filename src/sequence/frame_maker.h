@@ -1,6 +1,7 @@
 // One frame of a run: read, focused, completed by its neighbours and other eyes, blurred, written, recorded.
 #pragma once
 
+#include "petzval/reports/stopwatch.h"
 #include "petzval/seen_elsewhere.h"
 #include "petzval/shot_run.h"
 
@@ -20,7 +21,6 @@ using records::add_stages;
 using records::as_text;
 using records::Json;
 using records::number;
-using records::Stopwatch;
 
 // Facts of one frame beside its settings.
 struct FrameContext {

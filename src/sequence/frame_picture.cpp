@@ -4,8 +4,8 @@
 #include "petzval/look_json.h"
 #include "petzval/names.h"
 #include "petzval/output.h"
+#include "petzval/reports/words.h"
 
-#include "base/words.h"
 #include "sequence/frame_maker.h"
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 
 #include "petzval/frames.h"
 #include "petzval/records.h"
+#include "petzval/reports/stopwatch.h"
 #include "petzval/track.h"
 
 #include "records/record_json.h"
@@ -96,7 +97,7 @@ Inspection inspection_of(const Shot& shot, DepthKind kind, double permissible_ra
 }
 
 Result<InspectedFile> inspect_file(const InspectFile& file, const Control& control) {
-    const records::Stopwatch watch;
+    const Stopwatch watch;
     auto shot = read_shot(file.source, control);
     if (!shot) return shot.error();
     if (file.transfer && !shot->display_referred)

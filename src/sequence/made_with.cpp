@@ -4,10 +4,10 @@
 #include "petzval/files.h"
 #include "petzval/look_json.h"
 #include "petzval/names.h"
+#include "petzval/reports/words.h"
 #include "petzval/version.h"
 
 #include "base/content_hash.h"
-#include "base/words.h"
 
 #include <cmath>
 #include <filesystem>

@@ -1,8 +1,7 @@
 #include "petzval/frames.h"
 #include "petzval/records.h"
+#include "petzval/reports/stopwatch.h"
 #include "petzval/shot_run.h"
-
-#include "records/record_json.h"
 
 #include <filesystem>
 #include <utility>
@@ -18,7 +17,7 @@ Result<FrameCost> measure_frame(Session& session, ShotRunSettings settings, int 
     settings.existing = ExistingOutputs::Replace;
     const std::string output = at_frame(settings.output, frame);
     ShotRun run(session, std::move(settings), host);
-    const records::Stopwatch watch;
+    const Stopwatch watch;
     const auto made = run.make(frame);
     const double seconds = watch.seconds();
     std::error_code ignored;

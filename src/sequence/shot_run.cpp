@@ -2,8 +2,8 @@
 
 #include "petzval/frames.h"
 #include "petzval/look_json.h"
+#include "petzval/reports/words.h"
 
-#include "base/words.h"
 #include "sequence/focus_jumps.h"
 #include "sequence/frame_maker.h"
 #include "sequence/read_ahead.h"

@@ -1,8 +1,7 @@
 #include "sequence/write_view.h"
 
+#include "petzval/reports/words.h"
 #include "petzval/views.h"
-
-#include "base/words.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,6 @@
 // The blur of a frame: lens, samples, engine, distortion, report.
+#include "petzval/reports/stopwatch.h"
+
 #include "base/parallel.h"
 #include "device/cpu/cpu_device.h"
 #include "device/failure.h"
@@ -16,7 +18,6 @@
 #include "views/plan_view.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -26,16 +27,6 @@
 
 namespace petzval {
 namespace {
-
-class Clock {
-public:
-    double seconds() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    }
-
-private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 // Deep samples that the caller holds; engines count the flat pictures and their own samples.
 std::size_t lent_deep_bytes(const FrameRequest& request) {
@@ -118,7 +109,7 @@ struct Blur {
     const engine::Engine& engine;
     const Radii& radii;
     MountedLens& lens;
-    const Clock& clock;
+    const Stopwatch& clock;
     Progress& progress;
     std::size_t beside_bytes = 0;
 };
@@ -241,7 +232,7 @@ Result<Blurred> blurred_by_either(const NotingDevice& drawing, const std::string
 
 Result<Blurred> Session::Contents::blur(const FrameRequest& request, const std::optional<Rect>& region,
                                         Picture* spare, Progress& progress) {
-    const Clock clock;
+    const Stopwatch clock;
     // Kernels kept between frames are there while the frame is made. Frames beside this one may keep more
     // than they will when they end.
     const std::size_t beside = usage().kept_bytes + lent_deep_bytes(request);

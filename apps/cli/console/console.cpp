@@ -100,11 +100,4 @@ std::string joined(const std::vector<std::string>& words, const std::string& bet
     return text;
 }
 
-std::string listed(const std::vector<std::string>& words) {
-    std::string text;
-    for (std::size_t i = 0; i < words.size(); ++i)
-        text += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
-    return text;
-}
-
 }  // namespace petzval::cli

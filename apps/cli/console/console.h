@@ -2,6 +2,7 @@
 #pragma once
 
 #include "petzval/frame_loop.h"
+#include "petzval/reports/words.h"
 
 #include <string>
 #include <vector>
@@ -35,8 +36,6 @@ bool print(const std::string& text);
 
 // All words with `between` between them.
 std::string joined(const std::vector<std::string>& words, const std::string& between = ", ");
-// "a", "a and b", "a, b and c".
-std::string listed(const std::vector<std::string>& words);
 
 // A check that found something to doubt: exit code 5.
 struct DoubtsFound {

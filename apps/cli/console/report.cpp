@@ -39,6 +39,10 @@ Status write_report(const Json& report, const std::string& path) {
     return write_text(path, report_text(report));
 }
 
+Status write_record(const std::string& record, const std::string& json) {
+    return record.empty() || json.empty() ? Status(Done{}) : write_report(Json::parse(record), json);
+}
+
 Status tell(const std::string& text, const Json& report, const std::string& json) {
     if (json != "-")
         if (Status said = write_text("-", text); !said) return said;

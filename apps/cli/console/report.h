@@ -3,8 +3,8 @@
 #pragma once
 
 #include "petzval/records.h"
+#include "petzval/reports/stopwatch.h"
 
-#include <chrono>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -12,16 +12,6 @@
 namespace petzval::cli {
 
 using Json = nlohmann::ordered_json;  // keys stay in the order in which they are set
-
-// Seconds since its making.
-class Stopwatch {
-public:
-    double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-
-private:
-    using Clock = std::chrono::steady_clock;
-    Clock::time_point start_ = Clock::now();
-};
 
 // schema, program, verb, and every key that a report always holds, with nothing in them yet.
 Json new_report(const std::string& verb);
@@ -42,6 +32,8 @@ Json finished(Json report, const Stopwatch& watch);
 // One line where `indent` is below 0.
 std::string report_text(const Json& report, int indent = 2);
 Status write_report(const Json& report, const std::string& path);
+// The same for a record of the library. Nothing is written if it is empty or --json names no file.
+Status write_record(const std::string& record, const std::string& json);
 // Prints a verb's result as text on standard output, and as a report if --json names a file; only the report
 // if that is "-". Errors: OutputFailed.
 Status tell(const std::string& text, const Json& report, const std::string& json);

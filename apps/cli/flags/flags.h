@@ -8,8 +8,10 @@
 #include "flags/values.h"
 
 #include <functional>
+#include <memory>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace CLI {  // NOLINT(readability-identifier-naming): the library's own name
@@ -40,6 +42,16 @@ Verb& add_verb(Verb& parent, const std::string& name, const std::string& purpose
 // Once the whole line has been read without an error: checks the flags, throws UsageError, or chooses an
 // action.
 void when_typed(Verb& verb, std::function<void()> choose);
+// The same for flags in a struct. `check` gets the flags and the verb, `act` gets the flags.
+template <typename Flags>
+void when_typed(Verb& verb, Action& chosen, const std::shared_ptr<Flags>& flags,
+                void (*check)(std::type_identity_t<Flags>&, const Verb&),
+                Status (*act)(const std::type_identity_t<Flags>&)) {
+    when_typed(verb, [flags, check, act, &verb, &chosen] {
+        check(*flags, verb);
+        chosen = [flags, act] { return act(*flags); };
+    });
+}
 // Throws UsageError unless one of the verb's own verbs was typed too.
 void require_verb(const Verb& verb);
 // Help in this program's form, for the program itself and all its verbs.

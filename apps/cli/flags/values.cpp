@@ -5,7 +5,6 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <optional>
 #include <sstream>
@@ -289,13 +288,6 @@ Result<std::vector<std::string>> parse_one_or_two_files(const std::string& text)
     if (files.size() > 2 || std::count(files.begin(), files.end(), "") > 0)
         return no("must be one file, or two with a comma between");
     return files;
-}
-
-std::string plain(double value, int digits) {
-    if (std::isinf(value)) return value > 0 ? "infinity" : "-infinity";
-    std::array<char, 64> text{};
-    std::snprintf(text.data(), text.size(), "%.*g", digits, value);
-    return text.data();
 }
 
 }  // namespace petzval::cli

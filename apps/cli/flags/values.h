@@ -4,6 +4,7 @@
 
 #include "petzval/lens_choice.h"
 #include "petzval/names.h"
+#include "petzval/reports/words.h"
 #include "petzval/result.h"
 #include "petzval/shot.h"
 
@@ -100,8 +101,5 @@ Result<std::vector<BarrelRim>> parse_barrel(const std::string& text);
 Result<BarnDoors> parse_barn_doors(const std::string& text);
 // "far.exr" or "far.exr,near.exr".
 Result<std::vector<std::string>> parse_one_or_two_files(const std::string& text);
-
-// A number for people: up to `digits` significant digits, no trailing zeros, "infinity" spelled out.
-std::string plain(double value, int digits = 6);
 
 }  // namespace petzval::cli

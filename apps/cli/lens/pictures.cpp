@@ -26,7 +26,6 @@ struct PictureFlags : MountFlags {
     DevelopFlags develop;
     RunFlags run;
 
-    bool is_png() const { return *kind_of_output(output) == FileKind::Png; }
     // A table is of the middle of the picture, wherever its upper edge lies; and it takes its time.
     void add_output_to(Verb& verb, bool is_table, bool has_raw = true) {
         FlagGroup(verb, "Output")
@@ -74,7 +73,7 @@ Status make(PictureFlags& flags, decltype(LensPictureFile::picture) picture) {
     });
     if (!made) return made.error();
     note("wrote " + flags.output);
-    return flags.run.json.empty() ? Status(Done{}) : write_report(Json::parse(made->record), flags.run.json);
+    return write_record(made->record, flags.run.json);
 }
 
 struct PsfFlags : PictureFlags {

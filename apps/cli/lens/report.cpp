@@ -85,7 +85,7 @@ Status report_many(const LensReportFlags& flags) {
     return finish(flags, *written, watch);
 }
 
-void check(const LensReportFlags& flags, const Verb& verb) {
+void check(LensReportFlags& flags, const Verb& verb) {
     refuse_both(flags.all, "--all", !flags.lenses.empty(), "a lens");
     if (!flags.all && flags.lenses.empty())
         require_argument(verb, "", "a lens, such as doublet, a lens file, or --all");
@@ -96,6 +96,7 @@ void check(const LensReportFlags& flags, const Verb& verb) {
     flags.overwrite.check();
     if (many && flags.overwrite.no_clobber)
         throw UsageError("--no-clobber has no effect with " + who + ", which writes many pages");
+    flags.run.apply();
 }
 
 }  // namespace
@@ -121,13 +122,9 @@ void add_lens_report(Verb& lens, Action& chosen) {
     flags->overwrite.add_to(verb, false);
     flags->run.add_json_to(verb);
     flags->run.add_log_to(verb, true);
-    when_typed(verb, [flags, &verb, &chosen] {
-        check(*flags, verb);
-        flags->run.apply();
-        chosen = [flags]() -> Status {
-            if (const Status fits = lens_report_fits(process_memory_bytes(0)); !fits) return fits;
-            return flags->lenses.size() == 1 ? report_one(*flags) : report_many(*flags);
-        };
+    when_typed(verb, chosen, flags, check, [](const auto& given) -> Status {
+        if (const Status fits = lens_report_fits(process_memory_bytes(0)); !fits) return fits;
+        return given.lenses.size() == 1 ? report_one(given) : report_many(given);
     });
 }
 
