@@ -1,8 +1,6 @@
 // petzval farm write: a shot as a job for a render farm.
 #include "petzval/farm/jobs.h"
-#include "petzval/shot_run.h"
 
-#include "console/console.h"
 #include "flags/defocus_flags.h"
 #include "guard.h"
 #include "verbs.h"
@@ -10,7 +8,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <utility>
 
 namespace petzval::cli {
 namespace {
@@ -71,60 +68,20 @@ std::vector<std::string> command_of(const WriteFlags& flags) {
     return words;
 }
 
-// The cost of the middle frame, which is rendered into the job's folder.
-Status measure(const WriteFlags& flags, FarmShot& shot) {
-    ShotRunHost host;
-    host.cancelled = terminal().cancelled;
-    Session session(flags.shot.session());
-    const int frame = shot.frames[shot.frames.size() / 2];
-    const auto cost = measure_frame(session, flags.shot.settings(), frame, shot.folder, host);
-    if (!cost) return cost.error();
-    set_cost(shot, cost->seconds, cost->peak_memory_bytes);
-    note("frame " + std::to_string(frame) + ": " + plain(shot.seconds_per_frame, 3) + " s, so " +
-         std::to_string(shot.chunk) + (shot.chunk == 1 ? " frame" : " frames") + " per process");
-    return Done{};
-}
-
-Result<FarmShot> facts(const WriteFlags& flags) {
-    FarmShot shot = farm_shot_in(flags.folder);
-    shot.command = command_of(flags);
-    shot.threads = flags.shot.run.threads;
-    shot.memory_bytes = flags.shot.max_memory_bytes;
-    shot.input = flags.shot.input.path;
-    shot.output = flags.shot.output;
-    const auto& words = flags.words;
-    const auto look = std::find(words.begin(), words.end(), "--look");
-    if (look != words.end() && look + 1 != words.end()) shot.look = *(look + 1);
-    shot.track = flags.shot.track.file;
-    ShotRunSettings settings = flags.shot.settings();
-    settings.existing = ExistingOutputs::Keep;
-    Session session(flags.shot.session());
-    ShotRun run(session, settings, {});
-    if (Status planned = run.plan(&run_files()); !planned) return planned.error();
-    shot.frames = run.frames();
-    std::sort(shot.frames.begin(), shot.frames.end());
-    return shot;
+FarmJob job_of(const WriteFlags& flags) {
+    FarmJob job{.folder = flags.folder, .system = *flags.system, .chunk = flags.chunk};
+    job.settings = flags.shot.settings();
+    job.command = command_of(flags);
+    job.threads = flags.shot.run.threads;
+    job.memory_bytes = flags.shot.max_memory_bytes;
+    const auto look = std::find(flags.words.begin(), flags.words.end(), "--look");
+    if (look != flags.words.end() && look + 1 != flags.words.end()) job.look_file = *(look + 1);
+    return job;
 }
 
 Status write(const WriteFlags& flags) {
-    auto shot = facts(flags);
-    if (!shot) return shot.error();
-    shot->chunk = std::max(flags.chunk, 1);
-    // Refused before a frame is rendered.
-    if (auto early = farm_files(*shot, *flags.system); !early) return early.error();
-    std::error_code error;
-    fs::create_directories(shot->folder, error);
-    if (error) return Error{ErrorCode::OutputFailed, "-o " + flags.folder + ": " + error.message()};
-    if (flags.chunk == 0)
-        if (Status done = measure(flags, *shot); !done) return done;
-    const auto files = farm_files(*shot, *flags.system);
-    if (!files) return files.error();
-    for (const FarmFile& file : *files) {
-        const auto path = write_farm_file(*shot, file);
-        if (!path) return path.error();
-        note("wrote " + *path);
-    }
-    return Done{};
+    Session session(flags.shot.session());
+    return write_farm_job(session, job_of(flags), &run_files(), terminal());
 }
 
 }  // namespace
@@ -145,10 +102,7 @@ static void add_farm_write(Verb& farm, Action& chosen) {
                "frames that one process renders (default: as many as take a minute; the middle frame is "
                "rendered to measure that, and the memory)",
                parse_count, flags->chunk);
-    when_typed(verb, [flags, &verb, &chosen] {
-        check(*flags, verb);
-        chosen = [flags] { return write(*flags); };
-    });
+    when_typed(verb, chosen, flags, check, write);
 }
 
 void add_farm(Verb& program, Action& chosen) {

@@ -80,6 +80,7 @@ const Rows& other_flags() {
         {"disc.side_px", "--side"},
         {"disc.size_px", "--size"},
         {"disc.slices", "--slices"},
+        {"farm.folder", "-o"},
         {"focus.at", "--focus-at"},
         {"focus.permissible_radius_px", "--permissible-radius"},
         {"focus.picks", "--at"},

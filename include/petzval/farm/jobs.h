@@ -4,6 +4,7 @@
 
 #include "petzval/export.h"
 #include "petzval/result.h"
+#include "petzval/shot_run.h"
 
 #include <cstddef>
 #include <string>
@@ -55,5 +56,24 @@ PETZVAL_API int farm_chunk(double seconds_per_frame, std::size_t frames);
 PETZVAL_API Result<std::vector<FarmFile>> farm_files(const FarmShot& shot, FarmSystem system);
 // Writes one of them below shot.folder and returns its path. Errors: OutputFailed.
 PETZVAL_API Result<std::string> write_farm_file(const FarmShot& shot, const FarmFile& file);
+
+// A shot, and how a farm renders it.
+struct FarmJob {
+    std::string folder;  // made if missing
+    FarmSystem system = FarmSystem::List;
+    int chunk = 0;                          // frames that one process makes; 0: about a minute's, measured
+    ShotRunSettings settings = {};          // of the shot
+    std::vector<std::string> command = {};  // as FarmShot::command
+    int threads = 0;
+    std::size_t memory_bytes = 0;  // of one process; 0: a quarter more than measured
+    std::string look_file = {};
+};
+
+// Plans the frames of the shot, makes the middle one if its cost must be measured, and writes the files of
+// the job. `others` has more files of this process; may be null. host.say is called with the cost and after
+// each file; host.cancelled stops the frame. Errors: those of ShotRun::plan(), farm_files() and
+// measure_frame(); OutputFailed.
+PETZVAL_API Status write_farm_job(Session& session, const FarmJob& job, RunFiles* others = nullptr,
+                                  const FrameLoopHost& host = {});
 
 }  // namespace petzval
