@@ -181,7 +181,8 @@ Status open_window(const ViewFlags& flags) {
     setup.command_line = [&](const view::Choice& choice, const std::string& output) {
         return command_line(flags, choice, output);
     };
-    DefocusFlags quiet = flags;  // a picture that is saved has no bar on the terminal
+    // A picture that is saved has no bar on the terminal.
+    DefocusFlags quiet = static_cast<const DefocusFlags&>(flags);
     quiet.run.progress = ProgressMode::Off;
     quiet.output = "out.exr";  // of the example in a message
     setup.run = quiet.settings();
