@@ -31,8 +31,8 @@ TEST(AgainstTheReference, BrightPointsInTheOpen) {
         std::mt19937 random(5);
         for (int i = 0; i < 20; ++i) {
             const float light = float(random() % 900);
-            shot.colour(8 + int(random() % 144), 8 + int(random() % 84)) = {light, 0.8f * light, 0.5f * light,
-                                                                            1};
+            const int y = 8 + int(random() % 84), x = 8 + int(random() % 144);
+            shot.colour(x, y) = {light, 0.8f * light, 0.5f * light, 1};
         }
         expect_close_to_the_reference(shot, 0, &Tolerances::points_db);
     }
