@@ -2,6 +2,7 @@
 
 #include "petzval/version.h"
 
+#include <cstring>
 #include <iterator>
 #include <utility>
 
@@ -77,7 +78,11 @@ const char* petzval_status_name(petzval_status status) {
     static const char* const names[] = {"ok",          "invalid_argument", "invalid_file",
                                         "unsupported", "output_failed",    "out_of_memory",
                                         "cancelled",   "internal"};
-    const auto index = unsigned(status);
+    // A C program may pass any number; in C++ an enumeration that holds one of no enumerator must not be
+    // read.
+    unsigned index = 0;
+    static_assert(sizeof(index) == sizeof(status));
+    std::memcpy(&index, &status, sizeof(index));
     return index < std::size(names) ? names[index] : "unknown";
 }
 

@@ -140,6 +140,7 @@ static void test_looks(petzval_session* session) {
     expect(petzval_look_from_json(kept, &again) == PETZVAL_OK, "and back");
     expect(petzval_look_json(again, &json) == PETZVAL_OK && strcmp(json, kept) == 0, "the same");
     free(kept);
+    petzval_look_close(again);
     expect(petzval_look_from_json("{", &again) == PETZVAL_INVALID_FILE && again == NULL, "no JSON");
     petzval_look_close(look);
 }
