@@ -1,10 +1,10 @@
-"""Programs that people use today, on the same pictures: dB, SSIM and seconds beside ours.
+"""Programs that people use today, on the same pictures: PSNR in dB / SSIM / CPU seconds, beside ours.
 
 GEGL's lens blur (Debian: gegl) and the Defocus node of Blender's compositor (Debian: blender) run as programs of their
 own, where they are installed; what is missing is left out, and said so. GEGL gets a map of the absolute radii, Blender
 the depth and the camera. Scenes, truth and measures are those of `./dev bench quality`.
 
-Wall and CPU seconds are those of the whole process, start, reading and writing included, ours too.
+CPU seconds are those of the whole process, start, reading and writing included, ours too.
 
 Usage: ./dev bench peers [--scenes A,B] [--width N]          scenes: built-in names, or shared/fence
 """
@@ -15,22 +15,21 @@ import pathlib
 import shutil
 import subprocess
 import sys
-import time
 
-from quality import CACHE, PROGRAM, ROOT, SHARED, BUILT_IN, machine, petzval, print_table, score
+from quality import CACHE, PROGRAM, ROOT, SHARED, BUILT_IN, crossed, machine, petzval, print_table, score
 from baselines import radii_of, scenes_of
 
 OUT = CACHE / "peers_out.exr"
 
 
 def timed(*command, **options):
-    """Wall and CPU seconds of a command; its output is shown if it fails."""
-    before, start = os.times(), time.monotonic()
+    """CPU seconds of a command; its output is shown if it fails."""
+    before = os.times()
     result = subprocess.run(list(map(str, command)), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **options)
-    wall, after = time.monotonic() - start, os.times()
+    after = os.times()
     if result.returncode:
         sys.exit(f"bench: {command[0]} failed\n{result.stdout[-2000:]}")
-    return wall, after.children_user + after.children_system - before.children_user - before.children_system
+    return after.children_user + after.children_system - before.children_user - before.children_system
 
 
 def ours(scene):
@@ -89,9 +88,8 @@ def main():
     body = []
     for scene in scenes_of(names, given.width):
         for method in there:
-            for label, (wall, cpu) in method(scene):
-                body.append([scene.name, label, *score(scene, OUT), f"{wall:.2f}", f"{cpu:.2f}"])
-    print_table(["scene", "program", "PSNR dB", "SSIM", "wall s", "CPU s"], body)
+            body += [[scene.name, label, *score(scene, OUT), f"{cpu:.2f}"] for label, cpu in method(scene)]
+    print_table(*crossed(body))
     print(f"\n{given.width} px wide, whole processes. {machine()}; command: ./dev bench peers "
           f"{' '.join(sys.argv[1:])}".rstrip() + ".")
 

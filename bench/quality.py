@@ -1,8 +1,8 @@
 """How close each engine comes to what a lens sampled by a ray tracer recorded, and how long it takes.
 
 One table, in Markdown, on stdout: every engine on eight built-in scenes, and on the path-traced scenes that lie in
-../shared/scenes where that folder is there. `pinhole` is the sharp picture itself, the line to beat. `all known`:
-what the picture does not show is given, hidden layers and a rim of overscan; where it is known, the reference is
+../shared/scenes where that folder is there; a cell has PSNR in dB / SSIM / CPU s. `pinhole` is the sharp picture
+itself, the line to beat. `all known`: what the picture does not show is given, hidden layers and a rim of overscan; where it is known, the reference is
 run with it only, for that is what it defines. PSNR and SSIM are those of docs/reference/command-line.md on linear light
 times the scene's exposure, clipped to 0…1. CPU seconds are those of the whole command, files included.
 
@@ -120,6 +120,14 @@ def rows(scene, engines, quality, pupil_points):
         yield row
 
 
+def crossed(body, corner="scene"):
+    """Head and rows of a table with a row for each first word of `body` and a column for each second one. A cell has
+    the rest of that row of `body`, or is empty."""
+    left, top = list(dict.fromkeys(row[0] for row in body)), list(dict.fromkeys(row[1] for row in body))
+    cells = {(row[0], row[1]): " / ".join(value for value in row[2:] if value) for row in body}
+    return [corner, *top], [[name, *(cells.get((name, other), "") for other in top)] for name in left]
+
+
 def first_line(*command):
     try:
         return subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
@@ -158,7 +166,7 @@ def main():
     for name in names:
         scene = path_traced(name[7:]) if name.startswith("shared/") else built_in(name, given.width)
         body += rows(scene, engines, given.quality, given.pupil_points)
-    print_table(["scene", "engine", "PSNR dB", "SSIM", "CPU s"], body)
+    print_table(*crossed(body))
     print(f"\n{given.width} px wide, --quality {given.quality}, reference with {given.pupil_points} pupil points. "
           f"{machine()}.")
 
