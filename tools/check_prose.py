@@ -3,7 +3,7 @@
 Usage: check_prose.py [--list | --tighten] [repository root]
 
 Pages (every .md): words and forms of tools/prose_words.txt, lines over 100 columns, sentences over 35 words, more than
-four numbers in a sentence outside tables, titles without a subject. Comments of C++ and GLSL: the same words, and
+four numbers in a sentence outside tables, titles without a subject, paragraphs that break off. Comments of C++ and GLSL: the same words, and
 blocks whose first word leaves their subject out. Texts in quotes of src and apps (help, messages, sheets): the same
 words, except "no such". What was there before the rules is counted in
 tools/prose_allowed.txt, per page and per folder of sources; a count may only fall. --list shows all findings,
@@ -23,11 +23,16 @@ SOURCES = {".h", ".cpp", ".comp", ".glsl"}
 SPARED = {
     ("columns", "docs/reference/command-line.md"): "generated rows",
     ("columns", "docs/reference/c-api.md"): "generated rows",
+    ("end", "docs/reference/command-line.md"): "texts of the help, which have no full stop",
+    ("end", "docs/reference/c-api.md"): "comments of the header",
+    ("end", "docs/journal/"): "entries are not edited after their day",
     ("numbers", "docs/journal/"): "a journal may quote a run in a sentence",
     ("words", "CONTRIBUTING.md"): "quotes the words that it advises against",
 }
 HEADLESS = re.compile(r"(Of|What(ever)?|Whether|Who(ever|se)?|Which(ever)?|Where(ver)?|That|How|By|Than|But|Nor|As|From"
                       r"|Between|Beyond|Along|Among|So|Into|At)\b(?! most| least| once)")
+# Eight words or more that begin a sentence and do not end one.
+UNFINISHED = re.compile(r"(?=[A-Z\"“])(?:\S+\s+){7}.*[^.:!?…)\"”|]$", re.DOTALL)
 QUESTION = re.compile(r"^(What|Whether|Who|Where|That|Of|By)\b")
 FENCE = re.compile(r"^(```.*?^```|<!--.*?-->)", re.DOTALL | re.MULTILINE)
 NUMBER = re.compile(r"(?<![\w.#/×-])[-−+±]?\d[\d,.]*(?: \d{3}\b)*(?:\s?[×x]\s?\d+)?")
@@ -62,18 +67,18 @@ def plain(text):
 
 def paragraphs(text):
     """(line, kind, text) of headings, table rows, list items and paragraphs."""
-    start, kept = 0, []
+    start, kept, kept_kind = 0, [], "text"
     for number, line in enumerate((text + "\n\n").split("\n"), 1):
         stripped = line.strip()
         kind = ("heading" if re.match(r"#+ ", stripped) else "row" if stripped.startswith("|") else
                 "item" if re.match(r"([-*]|\d+\.) ", stripped) else "text" if stripped else "end")
         if kept and kind != "text":
-            yield start, "text", " ".join(kept)
+            yield start, kept_kind, " ".join(kept)
             kept = []
         if kind in ("heading", "row"):
             yield number, kind, stripped.lstrip("# ")
         elif kind in ("item", "text"):
-            start = start if kept else number
+            start, kept_kind = (start, kept_kind) if kept else (number, kind)
             kept.append(re.sub(r"^([-*]|\d+\.) ", "", stripped))
 
 
@@ -107,7 +112,10 @@ def page_findings(text):
             yield number, "title", f"the title '{paragraph}' does not name its subject"
         for found in word_findings(plain(paragraph)):
             yield number, *found
-        for sentence in sentences(paragraph) if kind == "text" else ():
+        is_prose = kind == "text" and not paragraph.startswith("![") and " · " not in paragraph
+        if is_prose and UNFINISHED.match(plain(paragraph)):
+            yield number, "end", f"the paragraph '{paragraph[:40]}…' does not end with its sentence"
+        for sentence in sentences(paragraph) if kind in ("item", "text") else ():
             for found in sentence_findings(sentence):
                 yield number, *found
 
