@@ -42,9 +42,9 @@ class Checks(unittest.TestCase):
         for line in ("[b](c.md)", "[b](b.md#the-c)", "[out](../../shared/a.md)", "see `../../scenes`",
                      "`Law.ThatNoTestHolds`", "`test_that_is_not_there`"):
             self.assert_found(links, sound | {"docs/a.md": line + "\n"}, "docs/a.md")
-        start = {"docs/README.md": "[a](a.md)\n", "docs/journal/c.md": "\n"}
+        start = {"docs/README.md": "[b](b.md)\n\n## Pages\n[a](a.md)\n", "docs/journal/c.md": "\n"}
         self.assert_found(links, sound | start, "no link to b.md")
-        self.assert_clean(links, sound | start | {"docs/README.md": "[a](a.md) [b](b.md)\n"})
+        self.assert_clean(links, sound | start | {"docs/README.md": "\n## Pages\n[a](a.md) [b](b.md)\n"})
 
     def test_an_upward_include_is_found(self):
         self.assert_found("check_layers.py", {"src/image/a.cpp": '#include "engine/b.h"\n'}, "src/image/a.cpp:1")
