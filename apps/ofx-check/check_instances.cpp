@@ -4,6 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <dlfcn.h>
+#include <filesystem>
+#include <iterator>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -70,10 +74,35 @@ void check_threads(const Setup& setup) {
     for (auto& effect : effects) scene.stage.destroy(std::move(effect));
 }
 
+namespace {
+
+int threads_of_process() {
+    std::error_code none;
+    const std::filesystem::directory_iterator tasks("/proc/self/task", none), end;
+    return none ? 0 : int(std::distance(tasks, end));
+}
+
+// A host may close the library after OfxActionUnload: HostSupport of OpenFX does after it has described a
+// plug-in.
+void expect_no_threads(const Setup& setup, int before) {
+    held("reload.threads");
+    const int more = threads_of_process() - before;
+    if (more <= 0) return;
+    if (void* kept = dlopen(setup.library.c_str(), RTLD_LAZY | RTLD_NOLOAD)) {
+        dlclose(kept);
+        return;
+    }
+    broken("reload.threads",
+           std::to_string(more) + " threads run after OfxActionUnload in a library that dlclose unmaps");
+}
+
+}  // namespace
+
 void check_reload(const Setup& setup) {
     Picture before;
+    const int threads = threads_of_process();
     {
-        Scene scene(setup, {"reload.same"});
+        Scene scene(setup, {"reload.same", "reload.threads"});
         if (!scene) return;
         before = scene.plain.picture;
         held("reload.same");
@@ -85,6 +114,7 @@ void check_reload(const Setup& setup) {
         if (!scene.effect) return broken("reload.same", "after OfxActionUnload: " + scene.stage.problem());
         expect_same("reload.same", scene.stage.render(*scene.effect), before, "loaded again");
     }
+    expect_no_threads(setup, threads);
     Scene again(setup, {"reload.same"});  // the library itself was closed
     if (again) expect_same("reload.same", again.plain, before, "the library opened again");
 }

@@ -2,7 +2,12 @@
 #include "checks.h"
 #include "rules.h"
 
+#include <array>
+#include <atomic>
+#include <string>
+#include <thread>
 #include <utility>
+#include <vector>
 
 namespace ofx_check {
 
@@ -31,6 +36,30 @@ void check_null_handles(const Setup& setup) {
     property_lies.know_nothing = false;
     held("host.null_handles");
     expect_same("host.null_handles", scene.stage.render(*scene.effect), scene.plain.picture,
+                "the frame after");
+}
+
+// MLT sends OfxActionLoad for each instance, without OfxActionUnload between, while other threads render.
+void check_loads(const Setup& setup) {
+    Scene scene(setup, {"host.loads_again"});
+    if (!scene) return;
+    effect_lies.at_once = true;
+    std::atomic<bool> is_over = false;
+    std::array<Rendered, 3> rendered;
+    std::thread other([&] {
+        for (Rendered& r : rendered) r = scene.stage.render(*scene.effect);
+        is_over = true;
+    });
+    while (!is_over) {
+        ofx::Effect again(false);
+        again.properties.with(ofx::kType, std::vector<std::string>{ofx::kTypeEffect});
+        scene.stage.call(ofx::action::kLoad, nullptr, nullptr, nullptr);
+        scene.stage.call(ofx::action::kDescribe, &again, nullptr, nullptr);
+    }
+    other.join();
+    for (const Rendered& r : rendered)
+        expect_same("host.loads_again", r, scene.plain.picture, "loaded again meanwhile");
+    expect_same("host.loads_again", scene.stage.render(*scene.effect), scene.plain.picture,
                 "the frame after");
 }
 

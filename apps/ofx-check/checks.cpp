@@ -55,6 +55,7 @@ std::vector<Check> all_checks() {
         {"menus", "params.chosen", check_menus},
         {"overlay", "overlay.survives", check_overlay},
         {"null handles", "host.null_handles", check_null_handles},
+        {"loads", "host.loads_again", check_loads},
         {"no image", "host.no_image", check_no_image},
     };
     for (const char* suite : {ofx::kPropertySuite, ofx::kImageEffectSuite, ofx::kParameterSuite,

@@ -30,6 +30,7 @@ void check_menus(const Setup& setup);
 void check_overlay(const Setup& setup);
 void check_missing_suite(const Setup& setup, const char* suite);
 void check_null_handles(const Setup& setup);
+void check_loads(const Setup& setup);
 void check_no_image(const Setup& setup);
 void check_bad_image(const Setup& setup, EffectLies::Bad bad);
 

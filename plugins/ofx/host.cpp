@@ -1,16 +1,19 @@
 #include "host.h"
 
+#include <atomic>
+
 namespace petzval::plugin {
 namespace {
 
-const ofx::Host* the_host = nullptr;
+std::atomic<const ofx::Host*> the_host = nullptr;
 Suites the_suites;
 
 template <typename Suite>
 bool fetch(const Suite*& suite, const char* name, int version) {
     suite = nullptr;
-    if (the_host && the_host->fetch_suite)
-        suite = static_cast<const Suite*>(the_host->fetch_suite(the_host->properties, name, version));
+    const ofx::Host* host = the_host;
+    if (host && host->fetch_suite)
+        suite = static_cast<const Suite*>(host->fetch_suite(host->properties, name, version));
     return suite != nullptr;
 }
 
@@ -29,6 +32,11 @@ bool fetch_suites() {
     const bool property = fetch(s.property, ofx::kPropertySuite, 1);
     const bool effect = fetch(s.effect, ofx::kImageEffectSuite, 1);
     return fetch(s.parameter, ofx::kParameterSuite, 1) && property && effect;
+}
+
+std::string host_name() {
+    const ofx::Host* host = the_host;
+    return host ? Properties(host->properties).text(ofx::kName) : "";
 }
 
 int Properties::integer(const char* name, int fallback, int index) const {

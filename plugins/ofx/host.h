@@ -22,6 +22,8 @@ struct Suites {
 const Suites& suites();
 
 void set_host(const ofx::Host* host);
+// The name that the host gives itself. Requires: fetch_suites() was true.
+std::string host_name();
 // Fetches all suites. False if one of the first three, which no effect can do without, is missing.
 bool fetch_suites();
 

@@ -7,6 +7,7 @@
 #include "render.h"
 
 #include <exception>
+#include <mutex>
 #include <new>
 #include <string_view>
 
@@ -14,9 +15,24 @@ namespace {
 
 using namespace petzval::plugin;
 
+// MLT loads again for each instance, while other threads render: only the first call between two unloads may
+// write the suites and the session.
+std::mutex loading;
+bool is_loaded = false;
+
 int load() {
+    const std::lock_guard lock(loading);
+    if (is_loaded) return ofx::kOk;
     if (!fetch_suites()) return ofx::kMissingHostFeature;
     open_session();
+    is_loaded = true;
+    return ofx::kOk;
+}
+
+int unload() {
+    const std::lock_guard lock(loading);
+    close_session();
+    is_loaded = false;
     return ofx::kOk;
 }
 
@@ -37,10 +53,7 @@ int about_frames(std::string_view action, ofx::Effect* effect, const Properties&
 
 int act(std::string_view action, const void* handle, const Properties& in, const Properties& out) {
     if (action == ofx::action::kLoad) return load();
-    if (action == ofx::action::kUnload) {
-        close_session();
-        return ofx::kOk;
-    }
+    if (action == ofx::action::kUnload) return unload();
     // All others are about an effect, and need the suites of kLoad.
     // The interface passes all handles as const: NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast)
     auto* effect = static_cast<ofx::Effect*>(const_cast<void*>(handle));

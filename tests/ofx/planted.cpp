@@ -267,6 +267,12 @@ int describe_in_context(Effect* effect) {
 }
 
 int load() {
+    if (fault("leaves_thread"))
+        std::thread([] { std::this_thread::sleep_for(std::chrono::hours(1)); }).detach();
+    if (fault("load_resets")) {
+        effects = nullptr;
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
     const auto suite = [](const char* name) { return host->fetch_suite(host->properties, name, 1); };
     props = static_cast<const PropertySuite*>(suite(kPropertySuite));
     effects = static_cast<const ImageEffectSuite*>(suite(kImageEffectSuite));

@@ -26,9 +26,9 @@ FAULTS = {
     "same_bounds": "bounds.offset", "ignores_scale": "scale.half", "local_window": "window.part",
     "small_region": "regions.enough", "bad_region": "regions.valid", "bad_identity": "identity.valid",
     "never_aborts": "abort.obeyed", "shared_state": "instances.apart", "thread_unsafe": "threads.same",
-    "no_reload": "reload.same", "trusts_suites": "host.missing_suite", "trusts_format": "host.bad_image",
+    "no_reload": "reload.same", "leaves_thread": "reload.threads", "trusts_suites": "host.missing_suite", "trusts_format": "host.bad_image",
     "trusts_images": "host.no_image", "silent_failure": "errors.message",
-    "trusts_properties": "host.null_handles", "overlay_crash": "overlay.survives",
+    "trusts_properties": "host.null_handles", "load_resets": "host.loads_again", "overlay_crash": "overlay.survives",
 }
 # Faults that sleep: the checks that meet them.
 ONLY = {"hangs": ["contexts"], "never_aborts": ["abort"]}
