@@ -24,11 +24,15 @@ constexpr const char* kUsage =
     "  --param NAME=VALUE   value of a parameter: numbers with commas, the words of a menu, text; "
     "repeatable\n"
     "  --edit NAME=VALUE    render: a value that the user gives, after all --param; repeatable, in order\n"
+    "  --host NAME          name that this host gives itself (default petzval.ofx-check)\n"
     "  --size WxH           size of the test pictures (default 96x64)\n"
     "  --timeout S          seconds that one check may take (default 60)\n"
     "  --check NAME         run this check alone; repeatable\n"
     "  --checks             list the checks\n"
     "  --context NAME       render: general or filter (default: the first that the plug-in names)\n"
+    "  --alpha unpremultiplied\n"
+    "                       render: this host keeps colour unpremultiplied in all clips; files stay "
+    "premultiplied\n"
     "  --time N, --scale S  render: frame (default 1) and render scale (default 1)\n"
     "\n"
     "exit status: 0 no rule is broken, 1 some are, 2 the command or the bundle cannot be used\n";
@@ -72,6 +76,8 @@ bool take_option(CommandLine& line, const std::string& option, const std::string
     std::string name, text;
     if (option == "--plugin")
         line.setup.plugin = value;
+    else if (option == "--host")
+        line.setup.host = value;
     else if (option == "--check")
         line.only.push_back(value);
     else if (option == "--context")
@@ -84,6 +90,8 @@ bool take_option(CommandLine& line, const std::string& option, const std::string
         line.job.edits.emplace_back(name, text);
     else if (option == "--clip" && split(value, name, text))
         line.job.clips[name] = text;
+    else if (option == "--alpha" && (value == "premultiplied" || value == "unpremultiplied"))
+        line.job.is_unpremultiplied = value == "unpremultiplied";
     else if (option == "--time")
         return number(value, line.job.time);
     else if (option == "--scale")

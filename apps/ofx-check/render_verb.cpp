@@ -64,6 +64,23 @@ std::string no_parameter(const std::string& name, const std::string& value) {
     return "the plug-in has no parameter " + name + " that takes '" + value + "'";
 }
 
+// Clips of one channel have no alpha.
+void unpremultiply(ofx::Effect& effect, const RenderJob& job) {
+    for (const auto& clip : effect.clips) {
+        const auto from = job.clips.find(clip->name);
+        if (from != job.clips.end() && !petzval::file_channel(from->second).channel.empty()) continue;
+        clip->properties.with(ofx::kPreMultiplication, std::vector<std::string>{ofx::kUnPreMultiplied});
+        std::vector<float>& values = clip->picture.values;
+        for (std::size_t i = 0; clip->picture.channels == 4 && i < values.size(); ++i)
+            if (i % 4 != 3 && values[i | 3] > 0) values[i] /= values[i | 3];
+    }
+}
+
+void premultiply(Picture& picture) {
+    for (std::size_t i = 0; i < picture.values.size(); ++i)
+        if (i % 4 != 3) picture.values[i] *= picture.values[i | 3];
+}
+
 // Sets the values that the project has, then those that the user gives, each with its actions.
 std::string set_all(Stage& stage, ofx::Effect& effect, const Setup& setup, const RenderJob& job,
                     const FrameRequest& request) {
@@ -93,12 +110,14 @@ std::string render_picture(const Setup& setup, const RenderJob& job) {
     if (!stage.begin()) return stage.problem();
     auto effect = stage.create(cast);
     if (!effect) return stage.problem();
+    if (job.is_unpremultiplied) unpremultiply(*effect, job);
     FrameRequest request;
     request.time = job.time;
     request.scale = {job.scale, job.scale};
     const std::string not_set = set_all(stage, *effect, setup, job, request);
     if (!not_set.empty()) return not_set;
-    const Rendered rendered = stage.render(*effect, request);
+    Rendered rendered = stage.render(*effect, request);
+    if (job.is_unpremultiplied) premultiply(rendered.picture);
     std::string problem;
     if (!rendered.fine())
         problem = "status " + std::to_string(rendered.status) + ": " +

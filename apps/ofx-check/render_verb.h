@@ -15,6 +15,7 @@ struct RenderJob {
     std::vector<std::pair<std::string, std::string>> edits;  // value by parameter, in the order of the user
     std::string output, context;
     double time = 1, scale = 1;
+    bool is_unpremultiplied = false;  // the host keeps all clips so, Output as well; files are premultiplied
 };
 
 // Returns what went wrong; empty if the picture was written.

@@ -146,6 +146,7 @@ bool Stage::begin() {
         if (problem_.empty()) problem_ = "it holds no plug-in '" + setup_.plugin + "'";
         return false;
     }
+    if (!setup_.host.empty()) the_host()->properties->with(ofx::kName, Texts{setup_.host});
     plugin_->set_host(the_host());
     const int loaded = call(ofx::action::kLoad, nullptr, nullptr, nullptr);
     is_loaded_ = loaded == ofx::kOk || loaded == ofx::kReplyDefault;

@@ -17,6 +17,7 @@ struct Setup {
     std::string library;
     std::string plugin;                         // identifier; empty: the first
     std::map<std::string, std::string> params;  // values over the defaults
+    std::string host;                           // name that this host gives itself; empty: its own
     int width = 96, height = 64;
 };
 

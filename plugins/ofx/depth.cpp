@@ -39,7 +39,8 @@ Result<std::vector<float>> of_file(const DepthQuestion& q) {
     ReadOptions options;
     options.need_colour = false;
     options.depth_channel = v.depth_channel;
-    const auto file = read_frame(at_frame(v.depth_file, int(std::floor(q.time))), options);
+    const double frame_number = std::clamp(std::floor(q.time + v.depth_frame_offset), -1e9, 2e9);
+    const auto file = read_frame(at_frame(v.depth_file, int(frame_number)), options);
     if (!file) return file.error();
     // The file covers the frame at full size; each pixel of the host takes the pixel under its centre.
     const petzval::Rect &whole = file->place.display_window, &data = file->place.data_window;

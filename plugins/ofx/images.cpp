@@ -102,15 +102,16 @@ petzval_pixels pixels_of(const LentImage& image, const ofx::RectI& part) {
     return p;
 }
 
-std::vector<float> premultiplied_copy(const LentImage& image) {
+std::vector<float> light_of(const LentImage& image, const Coding& coding, bool opaque) {
     std::vector<float> copy(std::size_t(image.width()) * std::size_t(image.height()) * 4);
     const std::size_t row = std::size_t(image.width()) * 4;
     for (int y = 0; y < image.height(); ++y)
         std::memcpy(copy.data() + std::size_t(y) * row,
                     image.pixel(image.bounds().x1, image.bounds().y2 - 1 - y), row * sizeof(float));
-    if (image.is_unpremultiplied())
-        for (std::size_t i = 0; i < copy.size(); i += 4)
-            for (std::size_t c = 0; c < 3; ++c) copy[i + c] *= copy[i + 3];
+    for (std::size_t i = 0; i < copy.size(); i += 4) {
+        if (opaque) copy[i + 3] = 1;
+        coding.to_light(copy.data() + i);
+    }
     return copy;
 }
 

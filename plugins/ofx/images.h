@@ -4,6 +4,7 @@
 #include "petzval/petzval_c.h"
 #include "petzval/place.h"
 
+#include "coding.h"
 #include "host.h"
 
 #include <cstddef>
@@ -38,7 +39,7 @@ public:
     float value(int x, int y, int channel, float outside) const;
     // True if rows and pixels lie as floats must.
     bool is_aligned() const;
-    bool is_unpremultiplied() const { return unpremultiplied_; }
+    Coding coding(Transfer transfer) const { return {transfer, unpremultiplied_}; }
     double pixel_aspect() const { return pixel_aspect_; }
     const ofx::RectI& region() const { return region_; }
 
@@ -73,8 +74,8 @@ inline bool is_empty(const ofx::RectI& r) { return r.x2 <= r.x1 || r.y2 <= r.y1;
 // A part of an image in the host's own memory. Requires: 4 channels, `part` inside of it.
 petzval_pixels pixels_of(const LentImage& image, const ofx::RectI& part);
 
-// Premultiplied RGBA of an image in memory of ours, top row first.
-std::vector<float> premultiplied_copy(const LentImage& image);
+// RGBA of an image in memory of ours, top row first: premultiplied light. opaque: alpha counts as 1.
+std::vector<float> light_of(const LentImage& image, const Coding& coding, bool opaque);
 petzval_pixels pixels_of(std::vector<float>& rgba, int width, int height);
 
 }  // namespace petzval::plugin

@@ -31,6 +31,9 @@ constexpr std::array kNumbers{
            "depth", &Values::depth_near, 0, 0, kHuge, 0, 10},
     Number{"depthFar", "Depth range: far", "Depth kinds with a range: its far end in units; 0: none.",
            "depth", &Values::depth_far, 0, 0, kHuge, 0, 100},
+    Number{"depthFrameOffset", "Depth frame offset",
+           "Added to the host's frame number where Depth file has '#': 1001 if frame 0 is depth.1001.exr.",
+           "depth", &Values::depth_frame_offset, 0, -kHuge, kHuge, 0, 1001},
 };
 
 struct Text {
@@ -51,10 +54,11 @@ constexpr std::array kTexts{
          "optics", &Values::preset, false},
 };
 
-// Words of a menu; the first is its default.
+// Words of a menu.
 struct Menu {
     const char *name, *label, *hint, *group;
     std::vector<std::string> words;
+    int usual = 0;
 };
 
 constexpr const char* kOfTheLook = "as the look says";
@@ -75,12 +79,13 @@ std::vector<std::string> words_of(std::vector<std::string> words = {}) {
 struct Writer {
     const char *menu, *text, *first, *label, *hint;
     const char* (*word)(int index);
+    std::string Values::*value;
 };
 constexpr std::array kWriters{
     Writer{name::kLensMenu, name::kLens, "choose a lens", "Lens menu", "Writes the name of a lens into Lens.",
-           petzval_lens_name},
+           petzval_lens_name, &Values::lens},
     Writer{name::kPresetMenu, name::kPreset, "choose a preset", "Preset menu",
-           "Writes the name of a preset into Preset.", petzval_preset_name},
+           "Writes the name of a preset into Preset.", petzval_preset_name, &Values::preset},
 };
 
 Menu menu_of(const Writer& writer) {
@@ -91,6 +96,17 @@ Menu menu_of(const Writer& writer) {
 
 bool is_writer(const std::string& menu) {
     return std::any_of(kWriters.begin(), kWriters.end(), [&](const Writer& w) { return menu == w.menu; });
+}
+
+// Hosts that pass on the codes of video and of PNG files, as floats of 0 to 1.
+bool gives_codes(const std::string& host) { return host == "MLT"; }
+
+// Linear comes first, then srgb.
+std::vector<std::string> transfers() {
+    std::vector<std::string> words{name_of(Transfer::Linear)};
+    for (const auto& named : names<Transfer>())
+        if (named.value != Transfer::Linear) words.emplace_back(named.name);
+    return words;
 }
 
 std::vector<Menu> menus() {
@@ -104,6 +120,9 @@ std::vector<Menu> menus() {
              "The width that the sensor's width stands for.",
              "camera",
              {"project", "Source"}},
+            {name::kTransfer, "Source is",
+             "linear: light. Others: display codes, which are decoded, blurred as light and encoded again.",
+             "camera", transfers(), gives_codes(host_name()) ? 1 : 0},
             {"depthFrom",
              "Depth from",
              "auto: the clip Depth if it is connected, otherwise the depth file.",
@@ -132,7 +151,7 @@ void define_menus(ofx::ParamSet* params) {
         Properties p = defined(params, ofx::param::kChoice, menu.name, menu.label, menu.hint, menu.group);
         for (int i = 0; i < int(menu.words.size()); ++i)
             p.set(ofx::param::kChoiceOption, menu.words[std::size_t(i)].c_str(), i);
-        p.set(ofx::param::kDefault, 0).set(ofx::param::kAnimates, 0);
+        p.set(ofx::param::kDefault, menu.usual).set(ofx::param::kAnimates, 0);
         if (is_writer(menu.name)) p.set(ofx::param::kPersistent, 0).set(ofx::param::kEvaluates, 0);
     }
 }
@@ -160,6 +179,13 @@ std::string word_at(ofx::Effect* instance, const std::vector<std::string>& words
     const int chosen = value_of(instance, name, time, 0);
     const std::string& word = words[chosen >= 0 && chosen < int(words.size()) ? std::size_t(chosen) : 0];
     return word == kOfTheLook ? "" : word;
+}
+
+// Empty while the menu shows its first entry.
+std::string chosen_word(ofx::Effect* instance, const Writer& writer, ofx::Time time) {
+    const int chosen = value_of(instance, writer.menu, time, 0);
+    const char* word = chosen > 0 ? writer.word(chosen - 1) : nullptr;
+    return word ? word : "";
 }
 
 }  // namespace
@@ -217,19 +243,23 @@ Values values_at(ofx::Effect* instance, ofx::Time time) {
     v.draft_when_interactive = value_of(instance, "draft", time, 1) != 0;
     const int from = value_of(instance, "depthFrom", time, 0);
     v.depth_from = from >= 0 && from <= int(DepthFrom::Alpha) ? DepthFrom(from) : DepthFrom::Auto;
+    v.transfer = *parse<Transfer>(word_at(instance, transfers(), name::kTransfer, time));
     v.depth_kind = *parse<DepthKind>(word_at(instance, words_of<DepthKind>(), "depthKind", time));
     v.engine = word_at(instance, engines(), "engine", time);
     v.quality = word_at(instance, words_of<Quality>({kOfTheLook}), "quality", time);
+    for (const Writer& writer : kWriters)
+        if ((v.*writer.value).empty()) v.*writer.value = chosen_word(instance, writer, time);
     return v;
 }
 
 bool take_word_of_menu(ofx::Effect* instance, std::string_view menu, ofx::Time time) {
     for (const Writer& writer : kWriters) {
         if (menu != writer.menu) continue;
-        const int chosen = value_of(instance, writer.menu, time, 0);
-        ofx::Param* text = param_of(instance, writer.text);
-        const char* word = chosen > 0 ? writer.word(chosen - 1) : nullptr;
-        if (text && word) suites().parameter->set_value(text, word);
+        const std::string word = chosen_word(instance, writer, time);
+        ofx::Param *text = param_of(instance, writer.text), *shown = param_of(instance, writer.menu);
+        if (word.empty() || !text || !shown) return true;
+        suites().parameter->set_value(text, word.c_str());
+        suites().parameter->set_value(shown, 0);
         return true;
     }
     return false;

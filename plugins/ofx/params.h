@@ -2,6 +2,7 @@
 #pragma once
 
 #include "petzval/depth.h"
+#include "petzval/develop.h"
 
 #include "host.h"
 
@@ -18,6 +19,7 @@ inline constexpr const char* kLensMenu = "lensMenu";
 inline constexpr const char* kPreset = "preset";
 inline constexpr const char* kPresetMenu = "presetMenu";
 inline constexpr const char* kFocusPoint = "focusPoint";
+inline constexpr const char* kTransfer = "transfer";
 inline constexpr const char* kFocusFrom = "focusFrom";
 }  // namespace name
 
@@ -30,10 +32,12 @@ struct Values {
     FocusFrom focus_from = FocusFrom::Distance;
     ofx::Point focus_point{};  // canonical
     SensorSpans sensor_spans = SensorSpans::Project;
+    Transfer transfer = Transfer::Linear;  // of Source, Plate and Output
     DepthFrom depth_from = DepthFrom::Auto;
     std::string depth_file, depth_channel;
     DepthKind depth_kind = DepthKind::Planar;
     double depth_unit_m = 1, depth_near = 0, depth_far = 0;
+    double depth_frame_offset = 0;  // frames of the depth file, added to the host's time
     std::string lens, look, preset;
     std::string engine, quality;  // empty: those of the look
     bool draft_when_interactive = true;
@@ -43,7 +47,8 @@ void define_params(ofx::Effect* descriptor);
 // Defaults stand where the host has no value.
 Values values_at(ofx::Effect* instance, ofx::Time time);
 // The user has chosen in the menu of that name, which writes into a text: of lenses into `lens`, of presets
-// into `preset`. False, and nothing happens, for other names.
+// into `preset`. The menu then shows its first entry again: an entry that stays chosen is used where the text
+// is empty, in hosts that report no changes. False, and nothing happens, for other names.
 bool take_word_of_menu(ofx::Effect* instance, std::string_view menu, ofx::Time time);
 
 ofx::Param* param_of(ofx::Effect* instance, const char* name);

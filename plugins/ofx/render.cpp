@@ -52,10 +52,46 @@ void clear_beyond(const Job& job, const ofx::RectI& covered) {
 }
 
 void copy_source(const Job& job, const ofx::RectI& covered) {
+    const Coding from = job.source->coding(Transfer::Linear), to = job.output->coding(Transfer::Linear);
+    const bool same = from.is_unpremultiplied == to.is_unpremultiplied;
     for (int y = covered.y1; y < covered.y2; ++y)
-        std::memcpy(job.output->pixel(covered.x1, y), job.source->pixel(covered.x1, y),
-                    std::size_t(covered.x2 - covered.x1) * 4 * sizeof(float));
+        for (int x = covered.x1; x < covered.x2; ++x) {
+            float rgba[4];
+            std::memcpy(rgba, job.source->pixel(x, y), sizeof rgba);
+            if (!same) from.to_light(rgba), to.from_light(rgba);
+            std::memcpy(job.output->pixel(x, y), rgba, sizeof rgba);
+        }
 }
+
+// Memory for the pixels of `part`: the host's own where that takes premultiplied light.
+class Target {
+public:
+    Target(const LentImage& output, const ofx::RectI& part, const Coding& coding)
+        : output_(output), part_(part), coding_(coding), pixels_(pixels_of(output, part)) {
+        if (output.is_aligned() && coding.is_premultiplied_light()) return;
+        made_.resize(std::size_t(width()) * std::size_t(height()) * 4);
+        pixels_ = pixels_of(made_, width(), height());
+    }
+    petzval_pixels* pixels() { return &pixels_; }
+    void finish() {
+        const std::size_t row = std::size_t(width()) * 4;
+        for (std::size_t i = 0; i < made_.size() && !coding_.is_premultiplied_light(); i += 4)
+            coding_.from_light(made_.data() + i);
+        for (int y = 0; y < height() && !made_.empty(); ++y)
+            std::memcpy(output_.pixel(part_.x1, part_.y2 - 1 - y), made_.data() + std::size_t(y) * row,
+                        row * sizeof(float));
+    }
+
+private:
+    int width() const { return part_.x2 - part_.x1; }
+    int height() const { return part_.y2 - part_.y1; }
+
+    const LentImage& output_;
+    ofx::RectI part_;
+    Coding coding_;
+    std::vector<float> made_;
+    petzval_pixels pixels_;
+};
 
 int keep_on(void* effect, double) { return suites().effect->abort(static_cast<ofx::Effect*>(effect)) == 0; }
 
@@ -94,6 +130,7 @@ Status take_plate(const DepthQuestion& q, Scene& scene) {
         return refused("the clip Plate needs its depth: connect the clip PlateDepth");
     const auto depth = plate_depth_of(q);
     if (!depth) return depth.error();
+    const Coding coding = plate.coding(q.values->transfer);
     scene.first.push_back(0);
     std::size_t pixel = 0;
     const ofx::RectI& bounds = q.source->bounds();
@@ -101,10 +138,10 @@ Status take_plate(const DepthQuestion& q, Scene& scene) {
         for (int x = bounds.x1; x < bounds.x2; ++x) {
             float c[4];
             for (int i = 0; i < 4; ++i) c[i] = plate.value(x, y, i, 0);
-            const float share = plate.is_unpremultiplied() ? c[3] : 1;
+            coding.to_light(c);
             const float at = depth->values[pixel++];
             if (c[0] != 0 || c[1] != 0 || c[2] != 0 || c[3] != 0)
-                scene.samples.push_back({c[0] * share, c[1] * share, c[2] * share, c[3], at, at});
+                scene.samples.push_back({c[0], c[1], c[2], c[3], at, at});
             scene.first.push_back(scene.samples.size());
         }
     scene.plate.size = sizeof scene.plate;
@@ -147,12 +184,14 @@ Status take_camera(const DepthQuestion& q, Scene& scene) {
     return Done{};
 }
 
-void take_colour(const Job& job, Scene& scene, bool opaque) {
+void take_colour(const Job& job, const Values& values, Scene& scene) {
     const LentImage& source = *job.source;
-    if (source.is_aligned() && !source.is_unpremultiplied()) {
+    const Coding coding = source.coding(values.transfer);
+    const bool opaque = values.depth_from == DepthFrom::Alpha;
+    if (source.is_aligned() && coding.is_premultiplied_light()) {
         scene.colour = pixels_of(source, source.bounds());
     } else {
-        scene.rgba = premultiplied_copy(source);
+        scene.rgba = light_of(source, coding, opaque);
         scene.colour = pixels_of(scene.rgba, source.width(), source.height());
     }
     if (opaque) scene.colour.a = nullptr;
@@ -176,7 +215,7 @@ Status take_scene(const Job& job, const Values& values, const FrameOfHost& frame
     shot.display_window = lent(frame.rect(frame.display));
     shot.data_window = lent(frame.rect(job.source->bounds()));
     shot.pixel_aspect = frame.pixel_aspect;
-    take_colour(job, scene, values.depth_from == DepthFrom::Alpha);
+    take_colour(job, values, scene);
     if (Status taken = take_camera(question, scene); !taken) return taken;
     return take_plate(question, scene);
 }
@@ -205,20 +244,11 @@ int make_part(const Job& job, const ofx::RectI& part) {
     control.host = job.effect;
     control.progress = keep_on;
     control.region = lent(frame.rect(part));
-    std::vector<float> made;
-    petzval_pixels out = pixels_of(*job.output, part);
-    const int width = part.x2 - part.x1, height = part.y2 - part.y1;
-    if (!job.output->is_aligned()) {
-        made.resize(std::size_t(width) * std::size_t(height) * 4);
-        out = pixels_of(made, width, height);
-    }
+    Target target(*job.output, part, job.output->coding(values.transfer));
     const petzval_status status =
-        petzval_defocus(the_session, &scene.shot, look->get(), &control, &out, nullptr);
+        petzval_defocus(the_session, &scene.shot, look->get(), &control, target.pixels(), nullptr);
     if (status_of(status) != ofx::kOk) return failed(petzval_error_text(), status_of(status));
-    for (int y = 0; y < height && !made.empty(); ++y)
-        std::memcpy(job.output->pixel(part.x1, part.y2 - 1 - y),
-                    made.data() + std::size_t(y) * std::size_t(width) * 4,
-                    std::size_t(width) * 4 * sizeof(float));
+    target.finish();
     return ofx::kOk;
 }
 
@@ -276,7 +306,7 @@ int is_identity(ofx::Effect* effect, const Properties& in, Properties out) {
     const Job job = job_of(effect, in);
     const Values values = values_at(effect, job.time);
     const double width = properties_of(effect).number(ofx::kProjectSize) * job.scale.x;
-    const bool pinhole = values.look.empty() && values.lens.empty() && width > 0 &&
+    const bool pinhole = values.look.empty() && values.preset.empty() && values.lens.empty() && width > 0 &&
                          values.depth_kind != DepthKind::CocPx && largest_radius_px(values, width) < 0.01;
     if (!pinhole && !job.no_blur) return ofx::kReplyDefault;
     out.set(ofx::kName, ofx::kSource).set(ofx::kTime, job.time);

@@ -5,9 +5,13 @@ import os
 import pathlib
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 import unittest.mock
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "cli"))
+import pictures  # noqa: E402
 
 PETZVAL, OFX_CHECK = os.environ["PETZVAL"], os.environ["OFX_CHECK"]
 BUNDLE = pathlib.Path(os.environ["PETZVAL_OFX"]).parents[2]
@@ -75,6 +79,50 @@ class Plugin(unittest.TestCase):
         self.same({"focusDistance": 4.8, "depthFile": "depth.####.exr"}, ["--focus", "4.8m"],
                   ("--context", "filter", "--time", "7", "--clip", "Source=sharp.exr"))
 
+    def test_frames_of_a_depth_file_may_begin_elsewhere(self):
+        shutil.copy(f"{self.folder}/night.exr", f"{self.folder}/numbered.1008.exr")
+        self.same({"focusDistance": 4.8, "depthFile": "numbered.####.exr", "depthFrameOffset": 1001}, ["--focus", "4.8m"],
+                  ("--context", "filter", "--time", "7", "--clip", "Source=sharp.exr"))
+
+    def test_display_codes_are_blurred_as_light(self):
+        def codes_of(name):  # light of NAME.exr as sRGB codes in NAME-codes.exr
+            self.command(PETZVAL, "develop", f"{name}.exr", "-o", f"{name}.png", "--bits", "16", "--tone", "none", "--overwrite")
+            self.command(PETZVAL, "defocus", f"{name}.png", "--depth", "night.exr", "--transfer", "linear", "--fstop", "1e9",
+                         *CAMERA[:4], "--focus", "4.8m", "-o", f"{name}-codes.exr", "--overwrite")
+            return f"{name}-codes.exr"
+        source = codes_of("sharp")
+        self.command(PETZVAL, "defocus", "sharp.png", "--depth", "night.exr", *CAMERA, "--focus", "4.8m", "-o", "line.exr", "--overwrite")
+        self.render("host.exr", {**PARAMS, "focusDistance": 4.8, "transfer": "srgb"}, "--clip", f"Source={source}", *self.CLIPS[2:])
+        report = json.loads(self.command(PETZVAL, "compare", codes_of("line"), "host.exr", "--json", "-").stdout)
+        self.assertLess(report["max_error"], 3e-3, report)  # the files of codes are of half floats
+        self.render("taken.exr", {**PARAMS, "focusDistance": 4.8}, "--clip", f"Source={source}", *self.CLIPS[2:])
+        report = json.loads(self.command(PETZVAL, "compare", "taken.exr", "host.exr", "--json", "-").stdout)
+        self.assertGreater(report["max_error"], 0.05, "codes taken for light look different")
+        # MLT passes on codes, so they are the default there.
+        self.render("mlt.exr", {**PARAMS, "focusDistance": 4.8}, "--host", "MLT", "--clip", f"Source={source}", *self.CLIPS[2:])
+        report = json.loads(self.command(PETZVAL, "compare", "host.exr", "mlt.exr", "--json", "-").stdout)
+        self.assertEqual(report["max_error"], 0, report)
+
+    def test_a_host_may_keep_colour_unpremultiplied(self):
+        # Bars of alpha 0 to 1 in front of nothing.
+        alpha = pictures.plane(160, 90, lambda x, y: (x // 20 % 5) / 4)
+        colour = [[0.8 * a * (1 + y % 3) / 3 for a in row] for y, row in enumerate(alpha)]
+        depth = pictures.plane(160, 90, lambda x, y: 2 + x / 80)
+        with open(f"{self.folder}/bars.exr", "wb") as file:
+            file.write(pictures.exr_bytes({"R": colour, "G": colour, "B": colour, "A": alpha, "Z": depth}))
+        clips = ("--clip", "Source=bars.exr", "--clip", "Depth=bars.exr:Z")
+        self.render("kept.exr", {**PARAMS, "focusDistance": 2}, *clips)
+        self.render("divided.exr", {**PARAMS, "focusDistance": 2}, *clips, "--alpha", "unpremultiplied")
+        report = json.loads(self.command(PETZVAL, "compare", "kept.exr", "divided.exr", "--json", "-").stdout)
+        self.assertLess(report["max_error"], 1e-4, report)
+
+    def test_a_preset_glows_without_blur_too(self):
+        self.render("host.exr", {**PARAMS, "fStop": 1e9, "preset": "soft-focus"}, *self.CLIPS)
+        self.command(PETZVAL, "defocus", "sharp.exr", "--depth", "night.exr", "-o", "line.exr", *CAMERA[:4], "--fstop", "1e9",
+                     "--focus", "3m", "--preset", "soft-focus", "--overwrite")
+        report = json.loads(self.command(PETZVAL, "compare", "line.exr", "host.exr", "--json", "-").stdout)
+        self.assertEqual(report["max_error"], 0, report)
+
     def test_the_focus_point_counts_from_the_bottom(self):
         self.same({"focusFrom": "point", "focusPoint": "40.5,30.5"}, ["--focus-at", "40,59"])
 
@@ -130,6 +178,10 @@ class Plugin(unittest.TestCase):
     def test_menus_write_the_names_of_presets_and_lenses(self):
         for menu, word, flag in (("presetMenu", "achromat", "--preset"), ("lensMenu", "doublet", "--lens")):
             self.same({"focusDistance": 4.8}, ["--focus", "4.8m", flag, word], (*self.CLIPS, "--edit", f"{menu}={word}"))
+            # A host that reports no changes, such as MLT, leaves the word in the menu.
+            self.same({"focusDistance": 4.8, menu: word}, ["--focus", "4.8m", flag, word])
+        # A menu that was used shows its first entry again, so an emptied text stays empty.
+        self.same({"focusDistance": 4.8}, ["--focus", "4.8m"], (*self.CLIPS, "--edit", "lensMenu=doublet", "--edit", "lens="))
         done = self.render("none.exr", {}, *self.CLIPS, "--edit", "presetMenu=acromat", code=2)
         self.assertIn("no parameter presetMenu that takes 'acromat'", done.stderr)
 
