@@ -138,5 +138,9 @@ struct LensAtlas {
 // InvalidArgument for settings out of range; Cancelled.
 PETZVAL_API Result<LensAtlas> lens_atlas(const Lens& lens, const LensMount& mount,
                                          const LensAtlasSettings& settings = {});
+// Largest side, in pixels, of the kernels that lens_atlas() draws for its tiles; an upper bound. Errors:
+// those of largest_disc_px().
+PETZVAL_API Result<int> lens_atlas_disc_px(const Lens& lens, const LensMount& mount,
+                                           const LensAtlasSettings& settings = {});
 
 }  // namespace petzval

@@ -123,8 +123,10 @@ PETZVAL_API Status lens_disc_fits(const Lens& lens, const LensMount& mount, doub
 PETZVAL_API Status bokeh_texture_fits(const Lens& lens, const LensMount& mount,
                                       const BokehTextureSettings& settings, std::size_t limit_bytes);
 PETZVAL_API Status bokeh_volume_fits(const BokehVolumeSettings& settings, std::size_t limit_bytes);
-// The same for an atlas with its files, and for a report, whatever the lens. Errors: OutOfMemory.
-PETZVAL_API Status lens_atlas_fits(const LensAtlasSettings& settings, std::size_t limit_bytes);
+// The same for an atlas with its files. Errors: OutOfMemory; those of lens_atlas_disc_px().
+PETZVAL_API Status lens_atlas_fits(const Lens& lens, const LensMount& mount,
+                                   const LensAtlasSettings& settings, std::size_t limit_bytes);
+// The same for a report, whatever the lens. Errors: OutOfMemory.
 PETZVAL_API Status lens_report_fits(std::size_t limit_bytes);
 
 // EXR files of floats; their attributes (petzval:lens, petzval:coc, …) give all numbers that a program

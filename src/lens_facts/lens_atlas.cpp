@@ -53,21 +53,29 @@ std::array<double, 3> store(const Picture& disc, int zone, int radius, std::stri
     return sums;
 }
 
-// The disc on a picture of so many more pixels that `side_px` of the camera's picture fill a tile.
-Result<LensDisc> tile_of(const Lens& lens, const LensMount& mount, double coc_px, double place,
-                         double side_px) {
+// A picture of so many more pixels that `side_px` of the camera's picture fill a tile.
+LensMount tile_mount(const LensMount& mount, double side_px) {
     LensMount fine = mount;
     const double finer = kSide / side_px;
     fine.width_px = std::max(1, int(std::lround(fine.width_px * finer)));
     fine.height_px = std::max(1, int(std::lround(fine.height_px * finer)));
+    return fine;
+}
+
+Result<LensDisc> tile_of(const Lens& lens, const LensMount& mount, double coc_px, double place,
+                         double side_px) {
+    const LensMount fine = tile_mount(mount, side_px);
     return lens_point_spread(lens, fine, coc_px * fine.width_px / mount.width_px, place, 0, kSide);
 }
+
+// Without aberrations, a disc of this radius fills seven tenths of its tile.
+double least_side_px(double coc_px) { return std::max(4.0, std::abs(coc_px) / 0.35); }
 
 constexpr double kMostLost = 0.02;  // of a tile's light
 
 Status add_tile(const Lens& lens, const LensMount& mount, int zone, int radius, LensAtlas& atlas) {
     const double coc_px = atlas.radii_px[std::size_t(radius)], place = atlas.zones[std::size_t(zone)];
-    double side_px = std::max(4.0, std::abs(coc_px) / 0.35);
+    double side_px = least_side_px(coc_px);
     auto disc = tile_of(lens, mount, coc_px, place, side_px);
     while (disc && disc->lost_share > kMostLost && side_px < kLargestDiscPx / 2.0)
         disc = tile_of(lens, mount, coc_px, place, side_px *= 1.3);
@@ -78,15 +86,18 @@ Status add_tile(const Lens& lens, const LensMount& mount, int zone, int radius, 
     return Done{};
 }
 
+double tile_radius_px(int radius, const LensAtlasSettings& settings) {
+    const double t = 2.0 * radius / (kRadii - 1) - 1;
+    return settings.largest_coc_px * t * std::abs(t);
+}
+
 LensAtlas empty_atlas(const LensAtlasSettings& settings) {
     LensAtlas atlas;
     atlas.width = kRadii * kSide;
     atlas.height = settings.zones * kSide;
     atlas.texels.resize(4 * std::size_t(atlas.width) * std::size_t(atlas.height));
-    for (int radius = 0; radius < kRadii; ++radius) {
-        const double t = 2.0 * radius / (kRadii - 1) - 1;
-        atlas.radii_px.push_back(settings.largest_coc_px * t * std::abs(t));
-    }
+    for (int radius = 0; radius < kRadii; ++radius)
+        atlas.radii_px.push_back(tile_radius_px(radius, settings));
     for (int zone = 0; zone < settings.zones; ++zone)
         atlas.zones.push_back(settings.zones > 1 ? double(zone) / (settings.zones - 1) : 0);
     atlas.sides_px.resize(atlas.zones.size());
@@ -111,6 +122,19 @@ Result<LensAtlas> lens_atlas(const Lens& lens, const LensMount& mount, const Len
         }
     go_on(1);
     return atlas;
+}
+
+// A tile that grows is drawn on fewer pixels: its first kernel is the largest.
+Result<int> lens_atlas_disc_px(const Lens& lens, const LensMount& mount, const LensAtlasSettings& settings) {
+    int largest = 0;
+    for (int radius = 0; radius < kRadii; ++radius) {
+        const double coc_px = tile_radius_px(radius, settings);
+        const LensMount fine = tile_mount(mount, least_side_px(coc_px));
+        const auto disc = largest_disc_px(lens, fine, coc_px * fine.width_px / mount.width_px);
+        if (!disc) return disc.error();
+        largest = std::max(largest, *disc);
+    }
+    return largest;
 }
 
 }  // namespace petzval

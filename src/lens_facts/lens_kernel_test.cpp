@@ -1,5 +1,6 @@
 #include "petzval/lens_kernel.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -63,6 +64,28 @@ TEST(LargestDisc, HoldsTheDiscAtEveryPlaceAndRadius) {
         EXPECT_LE(bokeh_texture(*lens, m, settings).value().energy.height(),
                   most_texture_rows(*lens, m, settings).value())
             << name;
+    }
+}
+
+// The smallest of 14 radii is 64 / 13^2 px, and its tile covers 4 px. The largest's tile covers 64 / 0.35 px.
+TEST(LensAtlas, KnowsTheSideOfItsLargestKernel) {
+    for (const char* name : {"ideal", "doublet", "triplet-cooke"}) {
+        LensMount m = mount();
+        m.camera.f_number = 4;
+        const Lens lens = Lens::open(named(name)).value();
+        int needed = 0;
+        const auto draw = [&](double coc_px, double finer) {
+            LensMount fine = m;
+            fine.width_px = int(m.width_px * finer), fine.height_px = int(m.height_px * finer);
+            for (const double field : {0.0, 0.5, 1.0})
+                needed =
+                    std::max(needed, lens_point_spread(lens, fine, coc_px * finer, field).value().needed_px);
+        };
+        draw(64.0 / 169, 31.0 / 4);
+        draw(64, 31 * 0.35 / 64);
+        const int most = lens_atlas_disc_px(lens, m).value();
+        EXPECT_LE(needed, most) << name;
+        EXPECT_GE(2 * needed, most) << name;
     }
 }
 

@@ -58,7 +58,8 @@ void add_mount(Attributes& attributes, const LensMount& mount) {
 }
 
 // Measured bytes of a pixel: of a kernel while it is made, and of each kind of picture with its file.
-constexpr std::size_t kKernelBytes = 24, kDiscBytes = 35, kTextureBytes = 39, kVolumeBytes = 50;
+constexpr std::size_t kKernelBytes = 24, kDiscBytes = 35, kTextureBytes = 39, kVolumeBytes = 50,
+                      kTileKernelBytes = 48;
 
 Status fits(const char* what, std::size_t width, std::size_t height, std::size_t bytes, std::size_t limit) {
     return fits_memory(std::string(what) + " of " + std::to_string(width) + " x " + std::to_string(height),
@@ -113,11 +114,15 @@ Status bokeh_volume_fits(const BokehVolumeSettings& settings, std::size_t limit_
 }
 
 // Measured (docs/results/memory.md).
-Status lens_atlas_fits(const LensAtlasSettings& settings, std::size_t limit_bytes) {
-    constexpr std::size_t kBeside = std::size_t(4) << 20, kSide = kAtlasTileSide;
-    const auto zones = std::size_t(settings.zones);
+Status lens_atlas_fits(const Lens& lens, const LensMount& mount, const LensAtlasSettings& settings,
+                       std::size_t limit_bytes) {
+    constexpr std::size_t kBeside = std::size_t(5) << 19, kSide = kAtlasTileSide;
+    const auto disc = lens_atlas_disc_px(lens, mount, settings);
+    if (!disc) return disc.error();
+    const auto zones = std::size_t(settings.zones), whole = std::size_t(*disc);
     return fits_memory("an atlas of " + std::to_string(zones) + " zones",
-                       kBeside + 4 * kSide * kSide * kAtlasRadii * zones, limit_bytes);
+                       kBeside + 4 * kSide * kSide * kAtlasRadii * zones + kTileKernelBytes * whole * whole,
+                       limit_bytes);
 }
 
 Status lens_report_fits(std::size_t limit_bytes) {

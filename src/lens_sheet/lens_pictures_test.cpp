@@ -111,9 +111,16 @@ TEST(LensPicture, IsWrittenInBothFormatsWithItsRecord) {
 
 TEST(LensPicture, AnAtlasOrAReportThatDoesNotFitIsRefused) {
     constexpr std::size_t kMebibyte = 1 << 20;
-    EXPECT_TRUE(lens_atlas_fits({.zones = 64}, 8 * kMebibyte)) << "64 x 14 x 31 x 31 x 4 bytes and 4 MiB";
-    EXPECT_EQ(lens_atlas_fits({.zones = 64}, 7 * kMebibyte).error().code, ErrorCode::OutOfMemory);
-    EXPECT_TRUE(lens_atlas_fits({.zones = 1}, 5 * kMebibyte));
+    const auto atlas = [](const char* name, int zones, std::size_t mebibytes) {
+        const Lens lens = opened(name);
+        return lens_atlas_fits(lens, mounted_on(lens, {}, 1920).value(), {.zones = zones},
+                               mebibytes * kMebibyte);
+    };
+    EXPECT_TRUE(atlas("ideal", 64, 6)) << "64 x 14 x 31 x 31 x 4 bytes and 2.5 MiB";
+    EXPECT_EQ(atlas("ideal", 64, 5).error().code, ErrorCode::OutOfMemory);
+    EXPECT_TRUE(atlas("ideal", 1, 3));
+    EXPECT_TRUE(atlas("petzval-portrait", 1, 12));
+    EXPECT_EQ(atlas("petzval-portrait", 1, 8).error().code, ErrorCode::OutOfMemory) << "its kernels";
     EXPECT_TRUE(lens_report_fits(0)) << "no limit";
     EXPECT_TRUE(lens_report_fits(60 * kMebibyte));
     EXPECT_EQ(lens_report_fits(59 * kMebibyte).error().code, ErrorCode::OutOfMemory);

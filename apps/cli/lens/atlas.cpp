@@ -32,7 +32,9 @@ struct AtlasFlags : MountFlags {
 Result<LensAtlas> make_atlas(const MountedLens& mounted, const AtlasFlags& flags) {
     ProgressLine progress(flags.run.progress, flags.run.quiet, "lens atlas");
     LensAtlasSettings settings{flags.largest_coc_px, flags.zones, {}};
-    if (const Status fits = lens_atlas_fits(settings, process_memory_bytes(1)); !fits) return fits.error();
+    if (const Status fits = lens_atlas_fits(mounted.lens, mounted.mount, settings, process_memory_bytes(1));
+        !fits)
+        return fits.error();
     settings.progress = [&](double share) { return interrupted_by() == 0 && progress(share); };
     return lens_atlas(mounted.lens, mounted.mount, settings);
 }
