@@ -24,8 +24,9 @@ PETZVAL_API std::string frames_text(std::span<const int> frames);
 // ("beauty.%04d.exr"). Numbers with more digits than that are written whole.
 class PETZVAL_API FramePattern {
 public:
-    // Empty if the path has no frame number. Errors: InvalidArgument for two frame numbers, for one in a
-    // folder's name, and for more than 12 digits.
+    // Empty if the path has no frame number: an existing file "take #2.exr" is one picture, and the name of
+    // an existing folder holds none. Errors: InvalidArgument for two frame numbers, for one in a folder's
+    // name, and for more than 12 digits.
     static Result<std::optional<FramePattern>> find(std::string_view path);
 
     std::string path(int frame) const;

@@ -154,12 +154,17 @@ Result<std::optional<FramePattern>> FramePattern::find(std::string_view path) {
     const auto refuse = [&](const char* why) {
         return Error{ErrorCode::InvalidArgument, std::string(path) + ": " + why};
     };
-    const std::vector<Placeholder> found = placeholders(path);
+    std::vector<Placeholder> found = placeholders(path);
+    std::error_code missing;
+    if (found.empty() || std::filesystem::is_regular_file(path, missing))
+        return std::optional<FramePattern>();
+    const std::size_t slash = path.rfind('/');
+    const std::size_t name = slash == std::string_view::npos ? 0 : slash + 1;
+    if (found.front().begin < name && std::filesystem::is_directory(path.substr(0, name), missing))
+        std::erase_if(found, [&](const Placeholder& p) { return p.begin < name; });
     if (found.empty()) return std::optional<FramePattern>();
     if (found.size() > 1) return refuse("has two places for a frame number; give one");
     const Placeholder at = found.front();
-    const std::size_t slash = path.rfind('/');
-    const std::size_t name = slash == std::string_view::npos ? 0 : slash + 1;
     if (at.begin < name)
         return refuse("has its frame number in a folder's name; put it into the file's name");
     if (at.digits > kMostDigits) return refuse("has more than 12 digits for a frame number");

@@ -60,6 +60,18 @@ TEST(FramePatterns, NameFilesAndKnowThemAgain) {
         EXPECT_FALSE(FramePattern::find(bad)) << bad;
 }
 
+TEST(FramePatterns, AreNotSeenInNamesOfExistingFilesAndFolders) {
+    const test::TemporaryFolder folder;
+    const std::filesystem::path job = folder / "job #3";
+    std::filesystem::create_directory(job);
+    std::ofstream(job / "take #2.exr") << "x";
+    EXPECT_FALSE(FramePattern::find((job / "take #2.exr").string()).value());
+    EXPECT_FALSE(FramePattern::find((job / "beauty.exr").string()).value());
+    EXPECT_EQ(pattern((job / "a.####.exr").c_str()).path(7), (job / "a.0007.exr").string());
+    EXPECT_EQ(pattern((job / "take #3.exr").c_str()).path(7), (job / "take 73.exr").string());
+    EXPECT_FALSE(FramePattern::find(folder / "job #4/a.exr"));
+}
+
 TEST(FramePatterns, FindWhatIsThere) {
     const test::TemporaryFolder folder;
     for (const char* name : {"a.0003.exr", "a.0001.exr", "a.1.exr", "a.0002.png", "a.10000.exr"})

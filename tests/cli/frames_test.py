@@ -36,6 +36,15 @@ class Shots(CommandLineTest):
         self.succeed("defocus", "in.0002.exr", "-o", "one.exr", *CAMERA, "--lens", "doublet")
         self.assertEqual(self.content("one.exr"), self.content("out.0002.exr"))
 
+    def test_a_hash_in_the_name_of_an_existing_file_or_folder_is_no_frame_number(self):
+        os.mkdir(self.path("job #3"))
+        shutil.copy(self.path("in.0001.exr"), self.path("job #3/take #2.exr"))
+        self.succeed("defocus", "job #3/take #2.exr", "-o", "job #3/out.exr", *CAMERA)
+        self.succeed("defocus", "in.0001.exr", "-o", "one.exr", *CAMERA)
+        # (The files also hold the hash of the whole command.)
+        self.assertEqual(read_exr(self.path("job #3/out.exr"))[0], read_exr(self.path("one.exr"))[0])
+        self.succeed("inspect", "job #3/take #2.exr")
+
     def test_a_list_chooses_and_printf_names_work(self):
         self.succeed("defocus", "in.%04d.exr", "-o", "out.##.exr", *CAMERA, "--frames", "1-5x2")
         self.assertEqual(self.outputs(), ["out.01.exr", "out.03.exr", "out.05.exr"])
