@@ -4,9 +4,11 @@ import shlex
 import shutil
 import struct
 import subprocess
+import unittest
 
+import drop
 import window
-from window import PETZVAL
+from window import DISPLAY, PETZVAL, TIME_LIMIT_S
 
 
 def flat_exr(path, attributes=b"", channels="BGR", width=32, height=16):
@@ -224,6 +226,21 @@ class OpenTest(window.WindowTest):
             expect error default
             wait
         """)
+
+    @unittest.skipUnless(shutil.which("xdotool"), "no xdotool")
+    def test_a_file_that_is_dropped_on_the_window_opens(self):
+        flat_exr(self.path("a drop of #1.exr"), channels="BGRZ", width=48, height=20)
+        with open(self.path("dropped.txt"), "w") as file:
+            file.write("wait\nsay frame.width\nuntil frame.width 48\nwait\nexpect no error\nsay focus\n")
+        shown = self.start("table.exr", "--script", "dropped.txt")
+        self.assertEqual(shown.stdout.readline(), "320\n")
+        found = subprocess.run(["xdotool", "search", "--sync", "--onlyvisible", "--name", "petzval"],
+                               env={**os.environ, "DISPLAY": DISPLAY.name}, capture_output=True, text=True,
+                               timeout=TIME_LIMIT_S)
+        heard = drop.drop(DISPLAY.name, int(found.stdout.split()[0]), [self.path("a drop of #1.exr")])
+        self.assertEqual(heard, ["XdndStatus", "XdndFinished"])
+        out, _ = self.finish(shown)
+        self.assertEqual(out, "4\n")
 
 
 if __name__ == "__main__":
