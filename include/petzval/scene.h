@@ -25,6 +25,8 @@ struct SceneSummary {
     std::string name, purpose;  // one line each
     Camera camera;              // the scene's own camera
     int frames = 1;             // > 1: it moves
+    // Height of the floor, m: a camera below it would see nothing else. Nothing: the scene has no floor.
+    std::optional<double> floor_m = {};
 };
 
 PETZVAL_API const std::vector<SceneSummary>& scene_list();

@@ -1,6 +1,7 @@
 """Scenes that are rendered as one looks, under Xvfb: articles, camera paths, recordings."""
 import base64
 import json
+import math
 import os
 import shlex
 import struct
@@ -53,6 +54,25 @@ class SceneTest(window.WindowTest):
         compared = subprocess.run([PETZVAL, "compare", "made.exr", "turned-0001.exr"], cwd=self.shared,
                                   capture_output=True, text=True)
         self.assertIn("inf", compared.stdout + compared.stderr)
+
+    def test_the_camera_stays_above_the_floor_and_turns_back_at_once(self):
+        out, _ = self.do("""
+            wait
+            orbit 0 -60
+            say orbit.pitch_deg
+            dolly 2
+            say orbit.pitch_deg
+            orbit 0 10
+            say orbit.pitch_deg
+            orbit 0 300
+            say orbit.pitch_deg
+            expect no error
+        """, "--scene", "hexadrive", "--scene-size", "160x90")
+        low, farther, back, high = map(float, out.splitlines())
+        self.assertAlmostEqual(low, -math.degrees(math.asin(0.55 / 1.6 - 0.02)), places=2)
+        self.assertGreater(farther, low)  # twice as far, the floor is met earlier
+        self.assertAlmostEqual(back, farther + 10, places=2)
+        self.assertLess(high, 90)
 
     def test_a_camera_that_moves_is_seen_in_drafts_and_fine_once_it_rests(self):
         out, _ = self.do("""

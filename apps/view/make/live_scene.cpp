@@ -28,6 +28,7 @@ FoundCamera found(const RenderedScene& scene) {
 }
 
 using Clock = std::chrono::steady_clock;
+constexpr double kSteepest = 1.4;  // pitch of a camera, radians
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -82,12 +83,27 @@ Stand stand_of(const FoundCamera& camera, double target_m) {
     return stand;
 }
 
+Orbit within_reach(const Stand& own, Orbit orbit, std::optional<double> floor_m) {
+    constexpr double kAboveFloor = 0.02;  // of the distance to the target
+    const double dx = own.at.x - own.target.x, dy = own.at.y - own.target.y, dz = own.at.z - own.target.z;
+    const double far = orbit.distance * std::hypot(dx, dy, dz);
+    const double own_pitch = std::atan2(dy, std::hypot(dx, dz));
+    double lowest = -kSteepest;
+    if (floor_m)
+        lowest = std::asin(std::clamp((*floor_m - own.target.y) / far + kAboveFloor, std::sin(-kSteepest),
+                                      std::sin(kSteepest)));
+    constexpr double kDegree = std::numbers::pi / 180;
+    orbit.pitch_deg =
+        std::clamp(orbit.pitch_deg, (lowest - own_pitch) / kDegree, (kSteepest - own_pitch) / kDegree);
+    return orbit;
+}
+
 Stand orbited(const Stand& own, const Orbit& orbit) {
     const double dx = own.at.x - own.target.x, dy = own.at.y - own.target.y, dz = own.at.z - own.target.z;
     const double flat = std::hypot(dx, dz), far = orbit.distance * std::hypot(flat, dy);
     const double yaw = std::atan2(dx, dz) + orbit.yaw_deg * std::numbers::pi / 180;
     const double pitch =
-        std::clamp(std::atan2(dy, flat) + orbit.pitch_deg * std::numbers::pi / 180, -1.4, 1.4);
+        std::clamp(std::atan2(dy, flat) + orbit.pitch_deg * std::numbers::pi / 180, -kSteepest, kSteepest);
     Stand turned = own;
     turned.at.x = own.target.x + far * std::cos(pitch) * std::sin(yaw);
     turned.at.y = own.target.y + far * std::sin(pitch);

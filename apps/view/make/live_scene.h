@@ -41,6 +41,8 @@ struct Stand {
     ScenePoint at, target;
 };
 Stand stand_of(const FoundCamera& camera, double target_m);
+// The pitch stays short of the zenith and, if the scene has a floor, above it.
+Orbit within_reach(const Stand& own, Orbit orbit, std::optional<double> floor_m);
 // Upright, short of the zenith.
 Stand orbited(const Stand& own, const Orbit& orbit);
 

@@ -21,6 +21,12 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kFineSamples = 4;  // rays a pixel of a scene whose camera rests
 
+std::optional<double> floor_of(const std::string& scene) {
+    for (const SceneSummary& s : scene_list())
+        if (s.name == scene) return s.floor_m;
+    return std::nullopt;
+}
+
 }  // namespace
 
 Rect Mapping::seen() const {
@@ -254,9 +260,12 @@ std::optional<float> App::radius_at(PixelPosition pixel) const {
 
 void App::note_action() { acted_ = Clock::now(); }
 
-void App::turn_to(const Orbit& orbit) {
-    state.orbit = orbit;
-    if (state.path.recording) state.path.keys[state.timeline.frame] = orbit;
+void App::turn_to(const Orbit& wish) {
+    state.orbit = wish;
+    if (home_)
+        state.orbit =
+            within_reach(stand_of(*home_, home_->focus_distance_m->value), wish, floor_of(setup_.scene));
+    if (state.path.recording) state.path.keys[state.timeline.frame] = state.orbit;
     coarse_ = true, moved_ = Clock::now();
     read_again();
 }

@@ -147,7 +147,7 @@ public:
     // The scene at a frame as its camera looks at it now, or on its path. Requires: is_live().
     SceneWish scene_wish(int frame) const;
     SceneWish scene_wish() const { return scene_wish(state.timeline.frame); }
-    void turn_to(const Orbit& orbit);  // the scene's camera
+    void turn_to(const Orbit& wish);  // the scene's camera, as far as it may go
     // .exr: sharp frames with depth; .png: what is shown.
     void record(const std::string& path);
     // Checks that a file of that name may be written: it must not replace an input of this run. A placeholder

@@ -107,7 +107,8 @@ BuiltInScene hexadrive() {
              "lights at many depths out to the corners of a wide view, mirrors among them: HexaDrive's demo",
          .camera =
              {.focal_length_mm = 150, .sensor_width_mm = 360, .f_number = 1, .focus_distance_m = kFocus},
-         .frames = 48},
+         .frames = 48,
+         .floor_m = kFloor},
         build};
 }
 

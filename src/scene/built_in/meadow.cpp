@@ -192,7 +192,8 @@ BuiltInScene meadow() {
              .purpose = "thin blades of grass from very near to far, flowers between them, sky",
              .camera =
                  {.focal_length_mm = 50, .sensor_width_mm = 36, .f_number = 1.8, .focus_distance_m = kFocus},
-             .frames = 48},
+             .frames = 48,
+             .floor_m = 0},
             build};
 }
 

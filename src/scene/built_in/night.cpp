@@ -286,7 +286,8 @@ BuiltInScene night() {
                         .sensor_width_mm = 36,
                         .f_number = 1.4,
                         .focus_distance_m = City::kFocus},
-             .frames = 48},
+             .frames = 48,
+             .floor_m = 0},
             build};
 }
 

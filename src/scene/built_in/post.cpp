@@ -221,7 +221,8 @@ BuiltInScene post() {
              .purpose = "a wide near post and wires before lamps and lit signs, which slip behind it",
              .camera =
                  {.focal_length_mm = 75, .sensor_width_mm = 36, .f_number = 1.2, .focus_distance_m = kFocus},
-             .frames = 48},
+             .frames = 48,
+             .floor_m = 0},
             build};
 }
 

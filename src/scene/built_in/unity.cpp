@@ -86,7 +86,8 @@ BuiltInScene unity() {
          .purpose =
              "cubes, a green one that walks, glowing balls behind and white ones before: Unity's articles",
          .camera = {.focal_length_mm = 50, .sensor_width_mm = 36, .f_number = 1, .focus_distance_m = 2},
-         .frames = 48},
+         .frames = 48,
+         .floor_m = 0},
         build,
         [](float time) {
             return Vec3{0, 0.13f, subject_z(time) - 0.17f};
