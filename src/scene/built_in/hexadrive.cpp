@@ -82,7 +82,7 @@ void build(World& world, float time) {
     const Daylight moon{
         normalised({0.4f, 0.8f, -0.5f}), {0.22f, 0.24f, 0.30f}, {0.05f, 0.06f, 0.09f}, {0.02f, 0.02f, 0.02f}};
     world.add(
-        patch({-30, kFloor, 0.1f}, {60, 0, 0}, {0, 0, 40}, 1, 1),
+        patch({-60, kFloor, -60}, {120, 0, 0}, {0, 0, 120}, 1, 1),
         [&world, moon](const SurfacePoint& p) {
             const float joint = std::max(stripes(p.position.x / 0.3f, 0.03f, 0.01f),
                                          stripes(p.position.z / 0.3f, 0.03f, 0.01f));
