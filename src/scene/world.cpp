@@ -72,7 +72,10 @@ Viewpoint Viewpoint::looking(Vec3 from, Vec3 at) {
     return v;
 }
 
-World::World(bool one_thread) : device_(rtcNewDevice(one_thread ? "threads=1" : nullptr)) {
+// With wider instructions than AVX2, Embree rounds some hits otherwise: a scene would depend on the
+// processor.
+World::World(bool one_thread)
+    : device_(rtcNewDevice(one_thread ? "max_isa=avx2,threads=1" : "max_isa=avx2")) {
     // Embree needs nothing but memory and threads for either.
     if (device_ != nullptr) rays_ = rtcNewScene(device_);
     if (rays_ == nullptr) {
