@@ -1,6 +1,7 @@
 """Small pictures, stored: what the program makes stays close to the truth, and does not change unless meant.
 
-Usage: golden.py run|accept PROGRAM. Every picture is made again in build/golden, from the built-in scenes.
+Usage: golden.py run|accept PROGRAM. Every picture is made again in build/golden.
+The sharp pictures that they are made of are stored too: ray tracing rounds otherwise on other processors.
   run     compares those of the ideal lens with the stored truth of their scene, what a lens sampled by a ray tracer
           recorded: each may be better than it was, or worse by at most TRUTH_TOLERANCE_DB; and those of every engine
           and of other lenses with themselves as they were stored: the same bits, but for SAME_STEPS (ctest runs this)
@@ -55,13 +56,16 @@ def scene_of(name):
     return name.split("_")[0]
 
 
-def make(program, pictures, with_truth):
-    """The pictures, new, in build/golden."""
+def make(program, pictures, anew):
+    """The pictures, new, in build/golden. anew: also the sharp pictures and the truths."""
     shutil.rmtree(NEW, ignore_errors=True)
     NEW.mkdir(parents=True)
     for scene in SCENES:
-        truth = ["--truth", NEW / f"{scene}_truth.exr", "--samples", "2048"] if with_truth else []
-        petzval(program, "scene", "make", scene, "-o", NEW / f"{scene}.exr", *truth, *SIZE, "-q")
+        if anew:
+            petzval(program, "scene", "make", scene, "-o", NEW / f"{scene}.exr", "--truth", NEW / f"{scene}_truth.exr",
+                    "--samples", "2048", *SIZE, "-q")
+        else:
+            shutil.copy(HERE / f"{scene}.exr", NEW)
         petzval(program, "scene", "make", scene, "-o", NEW / f"{scene}_wide.exr", "--overscan", OVERSCAN_PX,
                 "--layers", NEW / f"{scene}_behind.exr", *SIZE, "-q")
     for name, (given, flags) in pictures.items():
@@ -120,14 +124,14 @@ def changed(program):
 def accept(program):
     closeness = {name: compared(program, NEW / f"{scene_of(name)}_truth.exr", name)["psnr_lin"] for name in WITH_TRUTH}
     (HERE / "golden.json").write_text(json.dumps({n: round(db, 2) for n, db in closeness.items()}, indent=4) + "\n")
-    for name in [*STORED, *(f"{scene}_truth" for scene in SCENES)]:
+    for name in [*STORED, *SCENES, *(f"{scene}_truth" for scene in SCENES)]:
         shutil.copy(NEW / f"{name}.exr", HERE / f"{name}.exr")
-    print(f"golden: {len(STORED)} pictures and {len(SCENES)} truths stored in {HERE}; say why in the commit")
+    print(f"golden: {len(STORED)} pictures and {len(SCENES)} scenes with truths stored in {HERE}; say why in the commit")
 
 
 def main(verb, program):
     pictures = WITH_TRUTH | STORED
-    make(program, pictures, with_truth=verb == "accept")
+    make(program, pictures, anew=verb == "accept")
     if verb == "accept":
         return accept(program)
     wrong = [*farther_from_truth(program).items(), *changed(program).items()]
