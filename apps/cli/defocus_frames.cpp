@@ -39,8 +39,8 @@ std::vector<std::string> TrackFlags::rack_in_metres() const {
 void TrackFlags::add_to(Verb& verb) {
     FlagGroup(verb, "Frames")
         .reads("--track", "FILE",
-               "values over the frames: a CSV or JSON file with the columns frame, focus (m) or focus_x, "
-               "focus_y (pixels), fstop, focal_length (mm), and look fields such as lens.blades",
+               "animate focus, aperture and look: a CSV or JSON file with the columns frame, focus (m) or "
+               "focus_x, focus_y (pixels), fstop, focal_length (mm), and look fields such as lens.blades",
                file)
         .values("--rack", "FRAME:X,Y",
                 "a focus pull: frames with the pixel to focus on, such as 1001:80,45, or with a distance, "
@@ -91,12 +91,13 @@ bool is_sequence(const DefocusFlags& flags) {
     const auto tracked = flags.track.given();
     if (!is_sequence(flags.frames, {flags.input.path}, flags.output, flags.run)) {
         if (tracked.empty()) return false;
-        throw UsageError(listed(tracked) +
-                         " cannot be used here: neither the input nor -o holds #### or %04d");
+        throw UsageError(listed(tracked) + " is for shots: neither the input nor -o contains #### or %04d");
     }
     const bool is_tracked = !flags.track.file.empty() || !flags.track.rack.empty();
     if (!from_many && flags.frames.frames.empty() && !is_tracked)
-        throw UsageError("no frames: the input has no #### or %04d; give it, --frames, --track or --rack");
+        throw UsageError("-o " + flags.output +
+                         " names many frames, but the input is one picture: give the " +
+                         "frames with --frames, --track or --rack, or write #### into the input too");
     const bool racks = !flags.track.rack_in_metres().empty();
     refuse_both(racks, "--rack", flags.camera.focus_distance_m.has_value(), "--focus");
     refuse_both(racks, "--rack", flags.focus.focus_at.has_value(), "--focus-at");

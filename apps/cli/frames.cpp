@@ -23,7 +23,7 @@ const NameTable<MissingFiles> kMissing{
 void FrameFlags::add_to(Verb& verb) {
     FlagGroup(verb, "Frames")
         .value("--frames", "LIST",
-               "frames of a shot, such as 1001-1100x2,1200; file names hold #### or %04d. Default: all "
+               "frames of a shot, such as 1001-1100x2,1200; file names contain #### or %04d. Default: all "
                "existing frames",
                parse_frames, frames)
         .choice("--missing", "missing input frames: fail (default), skip, or black frames", kMissing, missing)
@@ -51,17 +51,19 @@ bool is_sequence(const FrameFlags& frames, const std::vector<std::string>& input
     const bool to_many = has_pattern(output);
     if (!from_many && !to_many && frames.given().empty()) return false;
     if (!from_many && !to_many)
-        throw UsageError(listed(frames.given()) + " cannot be used here: neither the input nor -o holds " +
+        throw UsageError(listed(frames.given()) + " is for shots: neither the input nor -o contains " +
                          "#### or %04d");
     if (!output.empty() && !to_many && frames.frames.size() != 1)
-        throw UsageError("-o " + output + ": the name of many frames holds #### or %04d");
+        throw UsageError("-o " + output + ": the output of many frames must contain #### or %04d");
     if (!run.json.empty() && !has_pattern(run.json))
         throw UsageError("--json of many frames needs #### or %04d in its name; --report takes them all");
     return true;
 }
 
 void require_frames(bool is_shot) {
-    if (!is_shot) throw UsageError("no frames: the input has no #### or %04d");
+    if (!is_shot)
+        throw UsageError(
+            "the input must be the frames of a shot, such as beauty.####.exr: it contains no #### or %04d");
 }
 
 FrameLoopHost terminal() {

@@ -58,7 +58,8 @@ void InputFlags::add_others_to(Verb& verb) {
         .reads("--holdout", "FILE",
                "holdout matte (deep EXR, or RGBA and Z): hides light behind it and stays sharp", holdout)
         .value("--mask", "FILE[:CHANNEL]",
-               "limit the effect: 1 blurred, 0 unchanged, mixed in between; without a channel: alpha, or "
+               "matte that limits the blur: 1 blurred, 0 unchanged, mixed in between; without a channel: "
+               "alpha, or "
                "luminance if alpha is 1 everywhere",
                parse_text, mask);
 }

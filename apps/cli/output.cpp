@@ -67,6 +67,12 @@ Status write_text(const std::string& path, const std::string& text) {
                  std::string("cannot write standard output: ") + std::strerror(errno)};
 }
 
+void require_folder(const std::string& output) {
+    std::error_code unknown;
+    if (std::filesystem::exists(output, unknown) && !std::filesystem::is_directory(output, unknown))
+        throw UsageError("-o " + output + ": must be a folder, but is a file", ErrorCode::OutputFailed);
+}
+
 Status make_folder(const std::string& folder) {
     std::error_code problem;
     std::filesystem::create_directories(folder, problem);

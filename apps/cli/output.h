@@ -38,6 +38,8 @@ void require_png(const std::string& output);
 // petzval::write_text(); "-" is standard output.
 Status write_text(const std::string& path, const std::string& text);
 
+// Throws UsageError (OutputFailed) if the folder of -o is a file.
+void require_folder(const std::string& output);
 // A folder, made if missing. Errors: OutputFailed.
 Status make_folder(const std::string& folder);
 

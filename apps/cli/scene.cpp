@@ -52,8 +52,8 @@ void MakeFlags::add_to(Verb& verb) {
                parse_index, scene.overscan_px)
         .value("--frame", "N", "frame of a moving scene (default 0)", parse_index, frame)
         .value("--frames", "LIST",
-               "several frames of a moving scene, such as 0-11; file names hold #### or %04d", parse_frames,
-               frames.frames)
+               "several frames of a moving scene, such as 0-11; file names contain #### or %04d",
+               parse_frames, frames.frames)
         .value("--samples", "N", "lens samples per pixel of the truth (default 1024)", parse_count,
                scene.truth_samples)
         .value("--pinhole-samples", "N", "samples per pixel of the sharp picture (default 64)", parse_count,
@@ -146,7 +146,7 @@ void MakeFlags::check(const Verb& verb) {
         throw UsageError("-o " + output + " names many frames: give --frames, such as --frames 0-11");
     for (const std::string& file : files)
         if (many && !has_pattern(file))
-            throw UsageError(file + ": the name of many frames holds #### or %04d");
+            throw UsageError(file + ": the output of many frames must contain #### or %04d");
 }
 
 SceneFiles files_of(const MakeFlags& flags) {

@@ -41,9 +41,9 @@ Status check(const Camera& camera, int width_px, const CocControls& controls) {
     if (width_px <= 0) return invalid("", "picture width in pixels", width_px, "positive");
     if (camera.image_scale == ImageScale::ThinLens &&
         camera.focus_distance_m * 1000 <= camera.focal_length_mm)
-        return invalid(
-            "camera.focus_distance_m", "focus distance (camera.focus_distance_m, m)", camera.focus_distance_m,
-            "beyond the focal length with camera.image_scale thin-lens: nothing nearer can be imaged");
+        return invalid("camera.focus_distance_m", "focus distance (camera.focus_distance_m, m)",
+                       camera.focus_distance_m,
+                       "more than the focal length: with camera.image_scale, nothing nearer can be imaged");
     if (!(controls.near_scale >= 0) || !std::isfinite(controls.near_scale))
         return invalid("focus.near_scale", "focus.near_scale", controls.near_scale, "0 or more");
     if (!(controls.far_scale >= 0) || !std::isfinite(controls.far_scale))

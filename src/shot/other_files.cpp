@@ -15,16 +15,20 @@ std::size_t held_bytes(const Reading& r) {
     return bytes;
 }
 
-// Another file of the same shot. `what` names its part in messages.
-Result<FileOfShot> read_other(Reading& r, const std::string& what, const std::string& path,
-                              bool need_colour = true) {
+// Another file of the same shot. `what` names its part in messages, `field` the setting that gave it.
+Result<FileOfShot> read_other(Reading& r, const std::string& what, const std::string& field,
+                              const std::string& path, bool need_colour = true) {
     ReadOptions options;
     options.need_colour = need_colour;
+    options.need_depth = false;  // the reader's message would ask for a depth file of the main picture
     options.workers = &r.workers;
     if (const std::size_t most = r.source.read.max_memory_bytes; most > 0)
         options.max_memory_bytes = most - std::min(most - 1, held_bytes(r));
     auto read = read_file(path, options, r.depth);
     if (!read) return read;
+    if (read->frame.depth.empty() && read->frame.deep.empty())
+        return Error{ErrorCode::InvalidFile,
+                     field + " " + path + " has no depth; it must be a deep EXR, or an EXR with RGBA and Z"};
     const std::string from = what + ": ";
     for (const auto& line : read->frame.detected) r.shot.detected.push_back(from + line);
     for (const auto& line : read->frame.warnings) r.shot.warnings.push_back(from + line);
@@ -65,7 +69,7 @@ Status merge_files(Reading& r) {
     pictures.push_back(samples_of(r));
     Rect all = r.shot.place.data_window;
     for (const std::string& path : r.source.merge) {
-        auto other = read_other(r, path, path);
+        auto other = read_other(r, path, "shot.merge", path);
         if (!other) return other.error();
         if (Status same = same_frame(r, other->frame, "shot.merge " + path); !same) return same;
         const Rect& window = other->frame.place.data_window;
@@ -90,7 +94,7 @@ Status merge_files(Reading& r) {
 
 Status read_holdout(Reading& r) {
     const std::string& path = r.source.holdout;
-    auto matte = read_other(r, "holdout", path, false);
+    auto matte = read_other(r, "holdout", "shot.holdout", path, false);
     if (!matte) return matte.error();
     if (Status same = same_frame(r, matte->frame, "shot.holdout " + path); !same) return same;
     const Rect window = matte->frame.place.data_window;
@@ -107,7 +111,7 @@ Status read_behind(Reading& r) {
         return Error{ErrorCode::InvalidArgument,
                      "shot.behind " + path + ": " + r.source.path +
                          " is deep and holds what it hides itself; shot.merge adds another deep picture"};
-    auto hidden = read_other(r, "plate", path);
+    auto hidden = read_other(r, "plate", "shot.behind", path);
     if (!hidden) return hidden.error();
     if (Status same = same_frame(r, hidden->frame, "shot.behind " + path); !same) return same;
     const Rect &theirs = hidden->frame.place.data_window, &ours = r.shot.place.data_window;

@@ -241,7 +241,7 @@ class Shots(CommandLineTest):
         self.assertIn("cut off", self.succeed("develop", "out.####.exr", "-o", "out.####.png", "--no-clobber").err)
         self.assertEqual(self.content("one.png"), self.content("out.0003.png"))
         self.refuse(2, "develop", "out.####.exr", "-o", "one.png", says=["####"])
-        self.refuse(2, "develop", "out.0001.exr", "-o", "one.####.png", says=["no frames"])
+        self.refuse(2, "develop", "out.0001.exr", "-o", "one.####.png", says=["must be the frames of a shot"])
         self.refuse(2, "inspect", "in.0001.exr", "--frames", "1-3", says=["--frames"])
         self.refuse(2, "compare", "in.####.exr", "out.####.exr", "--missing", "black", says=["--missing"])
 
@@ -261,7 +261,7 @@ class Shots(CommandLineTest):
         for flags, said in ((["--at", "1:3"], "--at 1:3"), (["--at", "1:3,4", "1:3,5"], "twice"), ([], "--at"),
                             (["--at", "1-3:3,4"], "FRAME:X,Y")):
             self.refuse(2, "focus-track", "in.####.exr", "-o", "u.csv", *flags, says=[said])
-        self.refuse(2, "focus-track", "in.0001.exr", "-o", "u.csv", "--at", "3,4", says=["no frames"])
+        self.refuse(2, "focus-track", "in.0001.exr", "-o", "u.csv", "--at", "3,4", says=["must be the frames of a shot"])
         outcome = self.run_program("focus-track", "in.####.exr", "-o", "u.csv", "--at", "300,4")
         self.assertEqual(outcome.code, 3, outcome)
         self.assertFalse(os.path.exists(self.path("u.csv")))

@@ -65,6 +65,11 @@ class Help(CommandLineTest):
         self.assertGreater(len(FLAG.findall(whole)), 2 * len(FLAG.findall(short)))
         self.assertRegex(self.succeed("lens", "psf", "--help").out, r"(?s)--defocus .*--field ")
 
+    def test_an_output_that_may_be_left_out_is_in_brackets(self):
+        for verb, usage in (("compare", "REF TEST [-o FILE.png] [flags]"), ("defocus", "IN -o OUT [flags]"),
+                            ("lens report", "LENS [-o PATH] [flags]")):
+            self.assertIn(f"\npetzval {verb} {usage}\n", self.succeed(*verb.split(), "--help").out)
+
     def test_the_manual_page_is_clean(self):
         self.assertEqual(self.check("mandoc", "-T", "lint", self.file("man")), "")
 

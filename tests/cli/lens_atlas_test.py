@@ -23,6 +23,13 @@ class LensAtlas(CommandLineTest):
     def tile(self, texels, zone, radius):
         return [row[radius * SIDE:(radius + 1) * SIDE] for row in texels[zone * SIDE:(zone + 1) * SIDE]]
 
+    def test_a_file_in_the_place_of_the_folder_is_refused_before_work_begins(self):
+        with open(self.path("taken"), "w") as file:
+            file.write("kept")
+        outcome = self.refuse(1, "lens", "atlas", "doublet", "-o", "taken", says=["-o taken", "must be a folder"])
+        self.assertNotIn("progress", outcome.err)
+        self.assertEqual(self.content("taken"), b"kept")
+
     def test_the_header_tells_what_a_reader_needs(self):
         header, texels = self.atlas("doublet", "--zones", "3", "--defocus", "40")
         self.assertEqual([header["format"], header["version"]], ["petzval lens atlas", 1])

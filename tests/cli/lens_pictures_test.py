@@ -94,6 +94,7 @@ class LensPsf(CommandLineTest):
                             (["--focus-mode", "--focus-shift"], ["--focus-mode", "best", "--focus-shift", "1"])):
             self.refuse(2, "lens", "psf", "ideal", "-o", "psf.exr", *flags, says=says)
         self.refuse(2, "lens", "psf", "ideal", "-o", "psf.exr", "--field", "2,0", says=["--field"])
+        self.refuse(2, "lens", "psf", "ideal", "-o", "psf.exr", "--field", "3", says=["--field 3", "0.5,-0.25"])
         self.refuse(2, "lens", "psf", "ideal", "-o", "psf.exr", "--defocus", "1e9", says=["--defocus"])
         self.refuse(2, "lens", "psf", "tessar", "-o", "psf.exr", "--fstop", "1", says=["--fstop"])
         self.refuse(2, "lens", "psf", "tessar", "-o", "psf.exr", "--distortion", "0.1", says=["--distortion"])

@@ -121,6 +121,31 @@ class Usage(CommandLineTest):
         self.refuse(2, "defocus", "in.exr", "more.exr", "-o", "out.exr", says=["more.exr"])
         self.refuse(2, "inspect", "in.exr", "--bloom", "3", says=["--bloom"])
 
+    def test_an_output_without_its_flag_is_explained(self):
+        self.refuse(2, "defocus", "in.exr", "out.exr", says=["out.exr", "-o out.exr"])
+        given = self.refuse(2, "defocus", "in.exr", "more.exr", "-o", "out.exr", says=["more.exr"])
+        self.assertNotIn("-o more.exr", given.err)
+
+    def test_help_of_a_verb_is_what_its_flag_shows(self):
+        for verb in ("defocus", "lens psf", "scene"):
+            self.assertEqual(self.succeed("help", *verb.split()).out, self.succeed(*verb.split(), "--help").out)
+        self.refuse(2, "help", "defokus", says=["no verb defokus (did you mean defocus?)"])
+        self.refuse(2, "help", "lens", "psv", says=["no verb psv (did you mean psf?)"])
+        self.refuse(2, "help", "defocus", "--format", "man", says=["--format", "no verb"])
+
+    def test_a_missing_lens_file_is_not_taken_for_a_misspelt_lens(self):
+        for name in ("missing.zmx", "folder/missing", "missing.json"):
+            outcome = self.refuse(2, "lens", "show", name, says=[f'lens file "{name}" does not exist'])
+            self.assertNotIn("petzval lens list", outcome.err)
+        outcome = self.refuse(2, "lens", "show", "dublet", says=["did you mean doublet?", "petzval lens list shows all"])
+        self.assertLess(len(outcome.err), 150)
+
+    def test_pictures_beside_the_input_need_their_own_depth(self):
+        write_exr(self.path("flat.exr"), picture(8, 6, depth=None))
+        for flag in ("--plate", "--holdout", "--merge"):
+            self.refuse(3, "defocus", "in.exr", "-o", "out.exr", *CAMERA, flag, "flat.exr",
+                        says=[flag + " flat.exr has no depth", "deep EXR"])
+
     def test_no_flag_may_be_given_twice(self):
         for flag, value in DEFOCUS_VALUES.items():
             others = [] if flag == "-o" else ["-o", "out.exr"]
@@ -186,6 +211,8 @@ class Usage(CommandLineTest):
 
     def test_focus_inside_the_focal_length_is_refused_only_where_it_means_nothing(self):
         near = ["--focal-length", "85", "--sensor-width", "36", "--fstop", "8", "--focus", "80mm"]
+        outcome = self.refuse(2, "defocus", "in.exr", "-o", "out.exr", *near, "--breathing", "on", says=["--breathing"])
+        self.assertNotIn("thin-lens:", outcome.lines[-1])
         self.refuse(2, "defocus", "in.exr", "-o", "out.exr", *near, "--image-scale", "thin-lens", says=["--focus"])
         self.succeed("defocus", "in.exr", "-o", "out.exr", "--max-radius", "3", *near)
 

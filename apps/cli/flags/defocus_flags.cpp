@@ -15,7 +15,7 @@ Result<int> parse_overscan(const std::string& text) {
     if (text == "fit") return kOverscanWithinFrame;
     if (text == "off") return kOverscanOff;
     if (const auto count = parse_size_px(text)) return count;
-    return Error{ErrorCode::InvalidArgument, "not off, fit, auto or a number of pixels, 1 to 65536"};
+    return Error{ErrorCode::InvalidArgument, "must be off, fit, auto or a number of pixels from 1 to 65536"};
 }
 
 }  // namespace
@@ -74,10 +74,11 @@ void DefocusFlags::add_choices_to(Verb& verb) {
 
 void DefocusFlags::add_session_to(Verb& verb) {
     FlagGroup(verb, "Run")
-        .value("--device", "DEVICE",
-               "device that draws: cpu (default), gpu, gpu:N of petzval devices, or auto: a hardware GPU, "
-               "otherwise the CPU. Engine reference always uses the CPU",
-               parse_text, device)
+        .value(
+            "--device", "DEVICE",
+            "CPU or GPU that draws: cpu (default), gpu, gpu:N of petzval devices, or auto: a hardware GPU, "
+            "otherwise the CPU. Engine reference always uses the CPU",
+            parse_text, device)
         .value("--kernel-cache", "FOLDER",
                "folder for slow kernels between runs, 1 GiB at most; off keeps none. Default: "
                "$PETZVAL_KERNEL_CACHE, otherwise petzval/kernels in the user's cache folder",
@@ -181,9 +182,9 @@ void DefocusFlags::check_display() const {
         throw UsageError("--layers are written to an EXR; -o " + output + " is none");
     ocio.check(develop, input.transfer);
     if (ocio.is_on() && (*kind != FileKind::Png || view != ShotView::Beauty))
-        throw UsageError("--ocio is for display pictures: --view beauty with -o FILE.png");
+        throw UsageError("--ocio applies to display pictures only: -o FILE.png with --view beauty");
     if (*kind == FileKind::Png && is_developed(view)) return;
-    develop.refuse("is for display pictures: --view beauty or focus with -o FILE.png");
+    develop.refuse("applies to display pictures only: -o FILE.png with --view beauty or focus");
 }
 
 std::string DefocusFlags::kernel_cache_folder() const {

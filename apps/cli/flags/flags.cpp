@@ -56,8 +56,13 @@ std::string unknown_argument(const Verb& verb) {
                " --help lists the flags";
     }
     for (const CLI::App* sub : verb.get_subcommands({})) known.push_back(sub->get_name());
-    if (known.empty())
-        return "unexpected argument " + word + "; " + full_name(verb) + " --help shows how it is used";
+    if (known.empty()) {
+        const CLI::Option* const output = verb.get_option_no_throw("-o");
+        const bool may_be_output = output && output->empty() && verb.count_all() > 0;
+        return "unexpected argument " + word + "; " +
+               (may_be_output ? "an output is given as -o " + word + "; " : "") + full_name(verb) +
+               " --help shows how it is used";
+    }
     return "unknown verb " + word + did_you_mean(word, known) + "; there are " + listed(known);
 }
 
@@ -257,7 +262,7 @@ std::string usage_message(const CLI::ParseError& error, const Verb& program) {
     if (dynamic_cast<const CLI::ExtrasError*>(&error)) return unknown_argument(verb);
     if (dynamic_cast<const CLI::ArgumentMismatch*>(&error))  // "--focus: 1 required M missing"
         return text.substr(0, text.find_first_of(": ")) + " needs a value; " + full_name(verb) +
-               " --help says which";
+               " --help shows which";
     return text + "; " + full_name(verb) + " --help shows how it is used";
 }
 

@@ -192,7 +192,8 @@ std::vector<LookRow> rows_of_glare() {
         row("Glare", "--star", "glare.star", value("FRACTION", parse_share),
             "diffraction stars around highlights: the fraction of their light, such as 0.1; needs --blades"),
         row("Glare", "--star-radius", "glare.star_radius", value("FRACTION", parse_positive),
-            "end of the stars' red light, in picture heights (default 0.5)"),
+            "distance from the highlight to the end of its star's red rays, in picture heights (default "
+            "0.5)"),
         row("Glare", "--star-quality", "glare.star_quality", name<StarQuality>(),
             "final: diffraction by wavelength (default); draft: quick streaks"),
         row("Glare", "--ghosts", "glare.ghosts", value("FRACTION", parse_share),
@@ -212,7 +213,7 @@ std::vector<LookRow> rows_of_engines() {
     return {
         row("Engine", "--engine", "engine", engine(), "method that computes the blur (default scatter)"),
         row("Engine", "--quality", "quality", name<Quality>(),
-            "accuracy only; the blur keeps its size (default standard)"),
+            "accuracy of the blur, not its size (default standard)"),
         row("Engine", "--fill", "fill", name<Fill>(),
             "how to fill the background hidden behind foreground edges: full, extends the surroundings "
             "(default); dim, extends them without highlights; off, adds nothing"),
@@ -255,9 +256,9 @@ std::vector<LookRow> rows_of_engines() {
         row("Engine sprites", "--background", "sprites.background", name<SpriteBackground>(),
             "engine that draws everything except the lights (default gather)"),
         row("Engine sprites", "--find-points", "sprites.find_points", on_or_off(),
-            "also for gather: draw the picture's bright points as whole kernels (default on)"),
+            "draw bright points of the picture with whole kernels (default on); also for gather"),
         row("Engine sprites", "--bright-factor", "sprites.bright_factor", value("N", parse_positive),
-            "also for gather: a bright point is this many times brighter than its surroundings (default 3)"),
+            "a bright point is this many times brighter than its surroundings (default 3); also for gather"),
     };
 }
 

@@ -143,6 +143,14 @@ Result<Interval> parse_range(const std::string& text) {
     return Interval{*low, *high};
 }
 
+Result<Interval> parse_field(const std::string& text) {
+    const auto parts = split_at_comma(text);
+    const auto x = parts ? whole_number(parts->first) : std::nullopt;
+    const auto y = parts ? whole_number(parts->second) : std::nullopt;
+    if (!x || !y) return no("must be two numbers with a comma between, such as 0.5,-0.25");
+    return Interval{*x, *y};
+}
+
 Result<MotionScale> parse_motion_scale(const std::string& text) {
     const auto parts = split_at_comma(text);
     const auto x = whole_number(parts ? parts->first : text);

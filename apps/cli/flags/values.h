@@ -41,6 +41,8 @@ struct MotionScale {
 };
 Result<MotionScale> parse_motion_scale(const std::string& text);
 Result<Interval> parse_range(const std::string& text);
+// "0.5,-0.25": a place in the picture, as two numbers.
+Result<Interval> parse_field(const std::string& text);
 // "1.5m,3m": two lengths, the nearer first.
 Result<Interval> parse_range_m(const std::string& text);
 // "480,270".

@@ -6,6 +6,9 @@
 #include "verbs.h"
 
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace petzval::cli {
 namespace {
@@ -13,6 +16,24 @@ namespace {
 struct Form {
     std::string (*write)(const VerbHelp&);
 };
+
+// The help of a verb, such as "lens psf", as its --help shows it.
+Status print_verb(const VerbHelp& program, const std::vector<std::string>& words) {
+    const VerbHelp* found = &program;
+    for (const std::string& word : words) {
+        std::vector<std::string> known;
+        const VerbHelp* next = nullptr;
+        for (const VerbHelp& verb : found->verbs) {
+            known.push_back(verb.last_name());
+            if (verb.last_name() == word) next = &verb;
+        }
+        if (!next)
+            return Error{ErrorCode::InvalidArgument, "there is no verb " + word + did_you_mean(word, known) +
+                                                         "; " + found->name + " --help shows how it is used"};
+        found = next;
+    }
+    return write_text("-", as_text(*found, false));
+}
 
 std::string as_whole_text(const VerbHelp& program) { return as_text(program, true); }
 
@@ -23,21 +44,28 @@ const NameTable<Form> kForms{{"text", {as_whole_text}}, {"md", {as_markdown}}, {
 
 void add_help(Verb& program, Action& chosen) {
     struct Flags {
-        Form form{as_whole_text};
+        std::vector<std::string> verb;
+        std::optional<Form> form;
         std::string save_to = "-";
     };
-    Verb& verb = add_verb(program, "help", "this page; all verbs as a manual, or completions for a shell",
-                          "petzval help\n"
+    Verb& verb = add_verb(program, "help",
+                          "help of a verb; all verbs as one page or a manual, or completions for a shell",
+                          "petzval help lens psf\n"
                           "petzval help --format man --save petzval.1\n"
                           "source <(petzval help --format bash)");
     auto flags = std::make_shared<Flags>();
+    FlagGroup(verb, "Verb").words("VERB", "verb whose help is shown; without it, all verbs", flags->verb);
     FlagGroup(verb, "Output")
         .choice("--format", "text (default), Markdown, a manual page, or completions for bash, zsh and fish",
                 kForms, flags->form)
         .writes("--save", "FILE", "output file; - is standard output (default)", flags->save_to);
     when_typed(verb, [flags, &program, &chosen] {
+        if (!flags->verb.empty() && (flags->form || flags->save_to != "-"))
+            throw UsageError("--format and --save are for all verbs: give no verb");
         chosen = [flags, &program]() -> Status {
-            return write_text(flags->save_to, flags->form.write(help_of(program)));
+            if (!flags->verb.empty()) return print_verb(help_of(program), flags->verb);
+            return write_text(flags->save_to,
+                              flags->form.value_or(Form{as_whole_text}).write(help_of(program)));
         };
     });
 }

@@ -103,7 +103,7 @@ std::string roff_quoted(const std::string& text) {
 void add_manual(const VerbHelp& verb, std::string& out) {
     for (const VerbHelp& sub : verb.verbs) add_manual(sub, out);
     if (!verb.verbs.empty()) return;
-    out += ".Ss " + roff_quoted(verb.usage().substr(0, verb.usage().rfind(" ["))) + "\n" +
+    out += ".Ss " + roff_quoted(verb.usage().substr(0, verb.usage().find(" ["))) + "\n" +
            filled(verb.purpose + ".") + ".Bd -literal -offset indent\n";
     for (const std::string& line : lines_of(verb.example)) out += roff(line) + "\n";
     out += ".Ed\n";
@@ -177,9 +177,12 @@ std::string VerbHelp::usage() const {
     std::string text = name, output;
     for (const FlagHelp& flag : flags) {
         if (flag.is_argument()) text += " " + flag.placeholder;
-        if (!flag.is_argument() && flag.names.front() == "-o") output = " -o " + flag.placeholder;
+        if (!flag.is_argument() && flag.names.front() == "-o") output = "-o " + flag.placeholder;
     }
-    return text + output + " [flags]";
+    // The first example is the shortest command: an output that it leaves out is optional.
+    const bool needs_output = example.substr(0, example.find('\n')).find(" -o ") != std::string::npos;
+    if (!output.empty()) text += needs_output ? " " + output : " [" + output + "]";
+    return text + " [flags]";
 }
 
 // Example, usage, purpose, and the flags by heading. The short form fits one screen.

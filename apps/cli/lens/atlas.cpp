@@ -81,6 +81,7 @@ void check(AtlasFlags& flags, const Verb& verb) {
     flags.run.apply();
     flags.overwrite.check();
     require_argument(verb, flags.folder, "-o FOLDER");
+    require_folder(flags.folder);
     flags.check_lens(verb);
     if (flags.zones > 64) throw UsageError("--zones " + std::to_string(flags.zones) + ": must be 1 to 64");
     for (const LookRow& row : look_rows()) {

@@ -49,7 +49,7 @@ struct PictureFlags : MountFlags {
         check_lens(verb);
         const auto kind = kind_of_output(output);
         if (!kind) throw UsageError("-o " + kind.error().message);
-        if (*kind != FileKind::Png) develop.refuse("is for display pictures: -o FILE.png");
+        if (*kind != FileKind::Png) develop.refuse("applies to display pictures only: -o FILE.png");
     }
 };
 
@@ -114,7 +114,7 @@ void add_psf(Verb& lens, Action& chosen) {
         .value("--defocus", "PX", "signed radius of the circle of confusion, + behind focus (default 20)",
                parse_number, flags->disc.coc_radius_px)
         .value("--field", "X,Y", "place in the picture, in half diagonals from the middle, x right, y up",
-               parse_range, flags->field)
+               parse_field, flags->field)
         .value("--size", "PX", "side of the output, made odd (default: as large as the kernel)",
                parse_size_px, flags->disc.size_px);
     flags->add_output_to(verb, false);
@@ -168,7 +168,7 @@ void add_volume(Verb& lens, Action& chosen) {
         .value("--side", "PX", "side of a slice, made odd (default 128)", parse_size_px,
                flags->volume.side_px)
         .value("--field", "X,Y", "place in the picture, in half diagonals from the middle, x right, y up",
-               parse_range, flags->field);
+               parse_field, flags->field);
     flags->add_output_to(verb, false, false);
     when_typed(verb, [flags, &verb, &chosen] {
         flags->check(verb);

@@ -64,7 +64,7 @@ Error too_little(const EngineView& input, std::size_t held, std::size_t of_strip
     const auto mib = [](std::size_t bytes) { return std::to_string(bytes >> 20); };
     const std::size_t in_strips = held + of_strip;
     const std::string why = at_once <= in_strips
-                                ? "M, done at once"
+                                ? "M"
                                 : "M, " + mib(held) + "M of them whole pictures, the rest a strip of " +
                                       std::to_string(rows) + " rows, as high as the blur reaches";
     return Error{ErrorCode::OutOfMemory, "job.max_memory_bytes " + mib(input.services.max_memory_bytes) +

@@ -12,6 +12,8 @@
 #include "lens_files/shelf.h"
 #include "optics/lens_text.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <string_view>
 
@@ -96,23 +98,32 @@ std::vector<std::string> known_names() {
     return names;
 }
 
-// The lenses a person may have meant: names that begin alike or hold the word; else as many as fit a line.
+// True for a name that only a file has: with a folder, or with an ending that lens files have.
+bool is_file_name(const std::string& name) {
+    constexpr std::array kEndings{".json", ".zmx", ".seq", ".dat", ".txt"};
+    return name.find('/') != std::string::npos ||
+           std::any_of(kEndings.begin(), kEndings.end(),
+                       [&](const char* end) { return name.ends_with(end); });
+}
+
+// Names the lenses that a person may have meant: names that begin alike or hold the word.
 Error unknown(const std::string& name) {
+    const std::string shown = "\"" + name.substr(0, 100) + "\"";
+    if (is_file_name(name)) return refuse_field("lens.name", "the lens file " + shown + " does not exist");
     const std::vector<std::string> known = known_names();
-    std::string near_it, some;
+    std::string near_it;
     for (const std::string& lens : known) {
         const bool is_near = lens.find(name) != std::string::npos || lens.substr(0, 4) == name.substr(0, 4);
         if (is_near && near_it.size() < 250) near_it.append(near_it.empty() ? "" : ", ").append(lens);
-        if (some.size() < 250) some.append(some.empty() ? "" : ", ").append(lens);
     }
-    const std::string all = std::to_string(known.size());
     const std::string nearest = nearest_word(name, known);
-    return refuse_field(
-        "lens.name",
-        "there is no lens or lens file \"" + name.substr(0, 100) + "\"" +
-            (nearest.empty() ? "" : " (did you mean " + nearest + "?)") + "; " +
-            (near_it.empty() ? "of the " + all + " lenses (petzval lens list) some are " + some
-                             : "near it: " + near_it + " (petzval lens list has all " + all + ")"));
+    std::string help = nearest.empty() ? "" : " (did you mean " + nearest + "?)";
+    if (!near_it.empty())
+        help += "; near it: " + near_it;
+    else if (nearest.empty())
+        help += "; some are ideal, doublet, double-gauss and petzval-portrait";
+    return refuse_field("lens.name", "there is no lens or lens file " + shown + help +
+                                         "; petzval lens list shows all " + std::to_string(known.size()));
 }
 
 File holding(const optics::AberrationCurves& curves) {
