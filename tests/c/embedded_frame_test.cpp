@@ -1,6 +1,7 @@
 // A frame of the pass for real time as a host asks for it: the part of its images, the meaning of their
 // values, the result.
 #include "embedded_host.h"
+#include "page_pass.h"
 
 #include <algorithm>
 #include <cmath>
@@ -150,6 +151,35 @@ TEST_F(EmbeddedPass, LightWithoutEndBecomesSomeAndSpreadsNoFurther) {
         const Floats made = Stage(host_, scene).drawn(pass.get());
         EXPECT_TRUE(std::all_of(made.begin(), made.end(), [](float v) { return std::isfinite(v); })) << light;
     }
+}
+
+// Values of 16 bits, of which two fill a float: compared as bytes.
+bool are_same_halves(const Floats& a, const Floats& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float) / 2) == 0;
+}
+
+TEST_F(EmbeddedPass, TheCodeOfThePageDrawsTheFrameThatItDescribes) {
+    constexpr VkFormat kHalves = VK_FORMAT_R16G16B16A16_SFLOAT;
+    const Pass of_page(page_opened(host_.instance, host_.physical, host_.device, kSize.width, kSize.height));
+    ASSERT_TRUE(of_page) << petzval_error_text();
+    const Pass pass = open(kSize, vkGetInstanceProcAddr, VK_NULL_HANDLE, 0, kHalves);
+    Stage stage(host_, scene_of(kSize), kHalves);
+    const auto focused = [&](double focus_m) {
+        petzval_camera camera = camera_at(focus_m);
+        camera.focal_length_mm = 50, camera.f_number = 1.4;
+        petzval_pass_frame frame = stage.frame();
+        frame.camera = &camera, frame.largest_radius_px = 0;
+        return petzval_pass_record(pass.get(), &frame);
+    };
+    const Floats expected = stage.drawn_by([&] { return focused(2); });
+    const Floats other = stage.drawn_by([&] { return focused(1); });
+    ASSERT_FALSE(are_same_halves(other, expected)) << "frames that look alike";
+    const petzval_pass_frame host = stage.frame();
+    const Floats made = stage.drawn_by([&] {
+        return page_recorded(of_page.get(), host.commands, 1, host.colour.view, host.depth.view, host.result,
+                             double(kNearM));
+    });
+    EXPECT_TRUE(are_same_halves(made, expected));
 }
 
 }  // namespace

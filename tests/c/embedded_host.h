@@ -172,8 +172,32 @@ public:
     VkImageView any_view() const { return colour_.view(); }
     void expose(double exposure) { exposure_ = exposure; }
 
+    // A frame as the tests record it, without its camera.
+    petzval_pass_frame frame(std::uint32_t slot = 0, VkExtent2D part = {}) const {
+        petzval_pass_frame frame = {};
+        frame.size = sizeof frame, frame.commands = commands_, frame.slot = slot;
+        frame.colour.view = colour_.view(), frame.depth.view = depth_.view(), frame.result = result_.view();
+        if (has_layer_) frame.layer = {layer_.view(), VK_IMAGE_LAYOUT_GENERAL};
+        frame.depth_scale = meaning_.scale, frame.depth_bias = meaning_.bias;
+        frame.largest_radius_px = 12;
+        frame.width = part.width, frame.height = part.height;
+        frame.exposure = exposure_;
+        frame.view = view_;
+        if (blurs_layer_) frame.layer_depth.view = layer_depth_.view();
+        return frame;
+    }
+
     // One frame: recorded, run, read.
     Floats drawn(petzval_pass* pass, double focus_m = 2, std::uint32_t slot = 0, VkExtent2D part = {}) {
+        return drawn_by([&] {
+            const petzval_camera camera = camera_at(focus_m);
+            petzval_pass_frame recorded = frame(slot, part);
+            recorded.camera = &camera;
+            return petzval_pass_record(pass, &recorded);
+        });
+    }
+    template <class Record>
+    Floats drawn_by(const Record& record) {
         VkCommandBufferBeginInfo begin = {};
         begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
         must(vkBeginCommandBuffer(commands_, &begin), "commands");
@@ -182,19 +206,7 @@ public:
         if (has_layer_) layer_.upload(commands_, VK_IMAGE_LAYOUT_GENERAL);
         if (blurs_layer_) layer_depth_.upload(commands_, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
         result_.free_to_be_written(commands_);
-        const petzval_camera camera = camera_at(focus_m);
-        petzval_pass_frame frame = {};
-        frame.size = sizeof frame, frame.commands = commands_, frame.slot = slot;
-        frame.colour.view = colour_.view(), frame.depth.view = depth_.view(), frame.result = result_.view();
-        if (has_layer_) frame.layer = {layer_.view(), VK_IMAGE_LAYOUT_GENERAL};
-        frame.depth_scale = meaning_.scale, frame.depth_bias = meaning_.bias;
-        frame.camera = &camera, frame.largest_radius_px = 12;
-        frame.width = part.width;
-        frame.exposure = exposure_;
-        frame.view = view_;
-        if (blurs_layer_) frame.layer_depth.view = layer_depth_.view();
-        frame.height = part.height;
-        EXPECT_EQ(petzval_pass_record(pass, &frame), PETZVAL_OK) << petzval_error_text();
+        EXPECT_EQ(record(), PETZVAL_OK) << petzval_error_text();
         result_.download(commands_);
         must(vkEndCommandBuffer(commands_), "commands");
         VkSubmitInfo submit = {};

@@ -45,7 +45,7 @@ for consumer in consumer $(echo "$components" | tr ';' '\n' | sed 's/./consumer_
 done
 
 # Every block of code of the page about the library, as its readers would compile it, run beside a beauty.exr.
-python3 "$here/../docs/library_blocks.py" "$here/../../docs/reference/library.md" "$stage/blocks"
+python3 "$here/../docs/library_blocks.py" "$here/../../docs/reference/library.md" "$stage/blocks" 2 1
 for block in "$stage"/blocks/*.cpp; do
     module=petzval
     if grep -q petzval/shot.h "$block"; then
