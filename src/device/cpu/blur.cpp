@@ -48,7 +48,8 @@ void pass(Rows& from, int from_y, Rows& to, int to_y, int begin, int end, int ro
 
 constexpr int kBand = 16;  // rows of cells that are blurred together
 
-// Blurs `channels` interleaved floats per cell, band by band of rows; lit: of each band, when it is blurred.
+// Blurs `channels` interleaved floats per cell, band by band of rows. lit: the columns of each band that are
+// lit once it is blurred.
 void blur_cells(float* cells, int width, int height, int channels, const BlurAxis& x, const BlurAxis& y,
                 const std::vector<LitCells>& lit, Workers& workers) {
     const int row = width * channels, bands = int(lit.size());

@@ -58,7 +58,7 @@ public:
     std::size_t size() const { return light_.size() - 2; }  // in cells
     // Adds light beyond the ends to the last cells. Call it before add_to().
     void fold_ends();
-    // Adds `share` of it to a row of cells.
+    // Adds `share` of the row's light to a row of cells.
     void add_to(Rgba* light, float* covered, LitCells& lit, float share) const;
     void clear();
 
@@ -73,7 +73,7 @@ private:
 // In place.
 void blur_layer(BlurLayer& layer, const engine::Blur& blur, Workers& workers);
 
-// Reads a blur at some pixels of one row after another.
+// Reads a blur row by row, at some pixels of each row.
 class BlurReader {
 public:
     BlurReader(const BlurLayer& layer, const engine::CellSplines& across, const engine::CellSplines& down)

@@ -24,7 +24,7 @@ public:
     // Requires: blur.is_narrow(); it outlives this.
     explicit BlurTile(const engine::Blur& blur) : blur_(&blur) {}
 
-    // Forgets what it holds.
+    // Removes all light.
     void go_to(const Rect& tile);
     // The pixels that are seen in the tile.
     Rect window() const { return window_; }

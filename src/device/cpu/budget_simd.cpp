@@ -29,7 +29,8 @@ using laws::kNextLayer;
 #define LAW_MOST(a, b) hn::Max(a, b)
 #include "laws/lens_left.inc"
 
-// LensLeft::take, of those that something arrives at. Returns what they take of it, and might take more.
+// LensLeft::take for the pixels at which light arrives. Returns the area that they take, and the further area
+// that they might take.
 struct Shares {
     V area, more;
 };
@@ -42,7 +43,7 @@ HWY_INLINE Shares Take(Floats d, V arrives, int at_layer, int another_surface,
     const auto old_before = hn::Load(d, left.before), old_own = hn::Load(d, left.own),
                old_beside = hn::Load(d, left.beside), old_more = hn::Load(d, left.more);
 
-    // A longer gap than to another surface is as one of just that.
+    // Gaps longer than the one to another surface count as exactly that one.
     const auto apart = hn::BitCast(unsigned_d, hn::Sub(hn::Set(signed_d, at_layer), old_layer));
     const auto gap = hn::ConvertTo(
         d, hn::BitCast(signed_d, hn::Min(apart, hn::Set(unsigned_d, std::uint32_t(another_surface)))));

@@ -39,7 +39,7 @@ struct Profile {
         const auto slopes = hn::Mul(hn::Sub(hn::Mul(up, up), hn::Mul(down, down)), hn::Set(d, per_ramp));
         return hn::Mul(hn::Set(d, peak), hn::Add(hn::Add(slopes, flat), down));
     }
-    // The share that it covers of cells from `first` on.
+    // The share of each cell from `first` on that the trapezoid covers.
     template <bool kBlurred, class D>
     HWY_INLINE hn::Vec<D> Shares(D d, int first) const {
         const auto place = hn::Add(hn::Set(d, float(first)), hn::Iota(d, 0));

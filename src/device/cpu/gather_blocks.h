@@ -16,7 +16,8 @@ struct LevelBlocks {
         Combined combined;  // counted from the first of the cells
         bool is_read = false;
     };
-    // Copies what the blocks hold of `target` and returns where any of it is lit, from the first cell of it.
+    // Copies the light of the blocks within `target`. Returns the lit rectangle, counted from the first cell
+    // of `target`.
     Rect copy(const Rect& target, Combined& to) const;
 
     TurnGroup group;
@@ -26,7 +27,7 @@ struct LevelBlocks {
 
 class GatheredBlocks {
 public:
-    // Gathers the blocks that any tile reads which is not sharp.
+    // Gathers the blocks that any blurred tile reads.
     GatheredBlocks(const engine::GatherPlan& plan, const TapAtlas& atlas, const Control& control);
     const std::vector<LevelBlocks>& groups() const { return groups_; }
 

@@ -57,8 +57,8 @@ struct Arrival {
     float covered, beyond;
 };
 
-// Light that arrives with `area` of n cells' lenses takes that of each, or what is still free; scale: what
-// its sums are multiplied by for that. Light that covers nothing is seen through whatever part is still free.
+// Gives light that arrives at n cells, with a lens area in each, that area or the area that is still free.
+// scale: the factor on the sums of this light. Light without coverage is seen through the whole free area.
 inline void take_area(int n, const float* area, const float* covered, float* free, float* scale) {
     for (int x = 0; x < n; ++x) {
         const bool covers = covered[x] > laws::kLeastGathered;

@@ -266,7 +266,8 @@ private:
                                   lit.x1 + shift_x + kernel.extent.x1, lit.y1 + shift_y + kernel.extent.y1}
                                  .intersected({0, 0, target.width(), target.height()});
         if (reached.empty()) return {};
-        // Alpha is coverage where all is opaque; what lies beyond the picture is seldom near.
+        // Alpha equals coverage in an opaque picture and needs no plane; `beyond` needs one only near the
+        // border.
         planes_ = has_beyond_ || !plan_.opaque ? kPlanes : kAlpha;
         w_.window.shape(kPlanes, window.width(), window.height() + kGatherRows);
         w_.window.clear_rows(planes_, lit.y0, lit.y1);
@@ -292,8 +293,8 @@ private:
         const float* weights;
         int count;
     };
-    // Those that read lit columns of the window for some of the kGatherGroup columns of output from x on. The
-    // others would add nothing.
+    // The steps that read lit columns of the window for some of the kGatherGroup columns of output from x on.
+    // The others would add nothing.
     Steps steps_that_read(const TapKernel& kernel, const Rect& lit, int x) {
         const int first = lit.x0 - (x + kGatherGroup - 1), last = lit.x1 - 1 - x;
         if (first <= 1 - kernel.extent.x1 && last >= -kernel.extent.x0)

@@ -112,7 +112,7 @@ private:
     bool is_layered() const { return plan_.law == GaussianPlan::Law::Layered; }
     bool is_narrow(std::size_t blur) const { return plan_.blurs[blur].is_narrow(); }
 
-    // All but the narrow ones.
+    // Makes the layers of all blurs that are not narrow.
     void make_layers() {
         int coarsest = 4;
         for (const Blur& blur : plan_.blurs) {
@@ -202,7 +202,7 @@ private:
 
     static float sharp_share(const BlurStack::Mix& mix) { return mix.lower == 0 ? 1 - mix.upper_share : 0; }
 
-    // Each layer takes of the pixel's lens what it arrives with, or what is left.
+    // Each layer takes the lens area that it arrives with, or the area that is left.
     Rgba composite(const Workspace& w, int x, int y) const {
         Rgba sum;
         float free = 1;

@@ -103,7 +103,7 @@ public:
     }
 
 private:
-    // Multiply-adds of so many tiles, were all alike.
+    // Multiply-adds of so many tiles, assuming that all are alike.
     std::uint64_t work_of(std::size_t tiles) const { return 4 * taps_ * tiles / tiles_.size(); }
     std::size_t tiles_at_once() const {
         const std::uint64_t most = context_.most_work("add lights");

@@ -46,7 +46,8 @@ public:
     const PackedSet& operator[](std::uint32_t kernel) const { return *sets_[kernel]; }
     std::size_t size() const { return sets_.size(); }
     std::size_t weight_bytes() const { return weight_bytes_; }  // of all
-    // Those of these numbers, sorted. What it returns is there once the recording has run.
+    // Uploads the kernels with these numbers, which are sorted. The result is valid once the recording has
+    // run.
     KernelsOnDevice uploaded(std::span<const std::uint32_t> kernels, Recording& recording) const;
 
 private:

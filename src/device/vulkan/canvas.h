@@ -11,7 +11,7 @@
 
 namespace petzval::device::vulkan {
 
-// Goes to the device when something is drawn on it there. Throws Failed.
+// A canvas whose pixels move to the device when something is drawn on it there. Throws Failed.
 class DeviceCanvas final : public Canvas {
 public:
     DeviceCanvas(Context& context, Picture memory) : Canvas(std::move(memory)), context_(context) {}
@@ -34,7 +34,8 @@ private:
     Piece pixels_;
 };
 
-// Brings what a recording drew to a target: on the device where that is away, else to the host's memory.
+// Brings the result of a recording to a target: on the device if the target's pixels are there, otherwise to
+// the host's memory.
 class Delivery {
 public:
     Delivery(Context& context, Target out);
@@ -46,7 +47,7 @@ public:
                  bool adds = false);
     // Rows y0…y1 - 1, of a piece that begins with row `first`.
     void rows(Recording& recording, const Piece& drawn, int first, int y0, int y1);
-    // Once the recording was run.
+    // Call it after the recording has run.
     void finish();
 
 private:

@@ -34,7 +34,7 @@ DevelopPush push_of(const colour::DevelopPlan& plan, int row) {
             std::uint32_t(plan.largest_code())};
 }
 
-// Codes of Code, four a pixel, with as many channels as the plan wants.
+// Codes of type Code, stored four per pixel, with the channels that the plan asks for.
 template <typename Code>
 std::vector<std::uint16_t> unpacked(const std::byte* from, const colour::DevelopPlan& plan,
                                     Workers& workers) {

@@ -14,13 +14,13 @@ namespace petzval::device::vulkan {
 
 inline std::uint32_t bits_of(float value) { return std::bit_cast<std::uint32_t>(value); }
 
-// A rectangle, and where what belongs to it begins; that of the next says where it ends.
+// Adds a rectangle and the index where its list begins; the next rectangle's index ends the list.
 inline void add_rect(std::vector<std::uint32_t>& words, const Rect& r, std::size_t first) {
     words.insert(words.end(), {std::uint32_t(r.x0), std::uint32_t(r.y0), std::uint32_t(r.x1),
                                std::uint32_t(r.y1), std::uint32_t(first)});
 }
 
-// A light as shaders/add_lights.comp reads it; the last two say what it is seen through.
+// A light as shaders/add_lights.comp reads it; the last two name its viewpoint or its mask.
 constexpr std::size_t kLightWords = 10;
 inline void add_light(std::vector<std::uint32_t>& words, const engine::PlannedLight& light, Rgba colour,
                       float coc_px, std::uint32_t seen, std::uint32_t more) {

@@ -23,8 +23,8 @@
 namespace petzval::engine {
 namespace {
 
-// Under job.max_memory_bytes the picture is done in strips of rows, each with as many around it as can matter
-// to it; they begin on whole tiles, cells and blocks, so that they change no bit.
+// Under job.max_memory_bytes the picture is drawn in strips of rows, each with the surrounding rows that can
+// change it. Strips begin on whole tiles, cells and blocks, so no bit depends on them.
 struct Strips {
     int rows = 0, halo = 0;
     std::size_t least_bytes = 0;  // of job.max_memory_bytes
@@ -127,7 +127,7 @@ private:
 
 }  // namespace
 
-// The lens of a frame, kept for those whose largest radii are the same to a pixel.
+// The lens of a frame, kept for frames whose largest radii are equal to a pixel.
 struct KeptRealtimeLens final : device::Memory::Thing {
     explicit KeptRealtimeLens(RealtimeLens made) : lens(std::move(made)) {}
     std::size_t bytes() const override { return lens.bytes(); }

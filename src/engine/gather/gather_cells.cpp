@@ -16,7 +16,7 @@ CellLight& of_entry(std::vector<CellLight>& lights, std::size_t begin, int entry
     return lights.back();
 }
 
-// A row of cells: first every column of pixels by itself, then the columns of each cell.
+// Makes a row of cells: sums each column of pixels, then the columns of each cell.
 class RowOfCells {
 public:
     RowOfCells(const EngineView& input, const FlatSurfaces& surfaces, const RingSizes& sizes,

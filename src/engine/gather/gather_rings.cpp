@@ -94,7 +94,7 @@ RingSizes::RingSizes(float nearest_px, float farthest_px, const RingRule& rule, 
         const int below = std::max(0, i - 1), above = std::min(i, count() - 1);
         const int inner = i <= zero_of_rings ? above : below, outer = i <= zero_of_rings ? below : above;
         const float apart = squared(outer) - squared(inner);
-        // The largest radius holds everything beyond it.
+        // Larger radii than the last ring's belong to that ring alone.
         intervals_.push_back({inner, outer, apart > 0 ? squared(inner) : -1, apart > 0 ? 1 / apart : 1e30f});
     }
     constexpr int kSteps = 4096;

@@ -21,9 +21,8 @@ struct RingRule {
     float full_res_px = 6;  // rings up to this radius are gathered at full resolution
     float largest_cells =
         12;  // rings beyond, at the finest of 1/2, 1/4, … where they are not wider than this
-    // Aberrations spread light wider than its ring's radius says. A kernel that does not end within
-    // core_end() is gathered in two pieces: its core on the ring's level, its skirt on a coarser one where it
-    // is as small.
+    // Aberrations spread light wider than its ring's radius. A kernel that does not end within core_end() is
+    // gathered in two pieces: its core on the ring's level, its skirt on a coarser one where it is as small.
     float full_res_core = 6;  // cells up to which a core is whole at full resolution; elsewhere largest_cells
     float core_begin(int level) const { return level == 0 ? full_res_core : largest_cells; }
     float core_end(int level) const { return 1.5f * core_begin(level); }
@@ -75,7 +74,7 @@ public:
     std::span<const Turn> turns() const { return turns_; }
     int level_of_turn(int turn) const { return level(turns_[std::size_t(turn)].ring); }
 
-    // Cells hold their light by entry: turns, and after all of these, once more, turns whose skirts are
+    // Cells store light by entry: one entry for each turn, followed by one for each turn whose skirt is
     // gathered.
     int entries() const { return 2 * int(turns_.size()); }
     int skirt_entry(int turn) const { return turn + int(turns_.size()); }
@@ -116,8 +115,8 @@ private:
     std::vector<Turn> turns_;
     std::vector<int> turn_of_;         // visible and hidden, ring by ring
     std::vector<Interval> intervals_;  // [i]: up to radii_px_[i]; the last: beyond all
-    // The first radius not below the start of each of many equal steps from the first radius to the last:
-    // millions of pixels ask.
+    // A lookup table, because millions of pixels ask: for each of many equal steps from the first radius to
+    // the last, the first radius that is not below the start of the step.
     std::vector<std::uint16_t> starts_;
     float steps_per_px_ = 0;
 };
@@ -143,11 +142,11 @@ class RingKernels final : public device::KernelSource {
 public:
     RingKernels(const LensOnPicture& lens, const RingSizes& sizes);
 
-    // In a picture with this display window.
+    // Zones of a picture with this display window.
     Zones zones(const Rect& frame) const { return {zones_.columns, zones_.rows, frame}; }
     device::KernelAsk ask(int ring, int zone, bool skirt) const;
     std::vector<Made> make(std::span<const device::KernelAsk> asks) const override;
-    // Cells by which any kernel of a level reaches.
+    // Largest reach of the kernels of a level, in cells.
     int reach(int level) const { return reach_[std::size_t(level)]; }
 
 private:

@@ -13,8 +13,8 @@ namespace {
 // Radii from which the article's picture, and its far part, are fully blurred by default, px.
 constexpr float kBlurredPx = 1, kFarBlurredPx = 1.2f;
 
-// |CoC| is that of infinity in much of a picture, and so the distance of the outermost taps to the bit: they
-// count, whatever rounding makes of it (the article's half floats are coarser than this).
+// In much of a picture |CoC| is that of infinity, and equals the distance of the outermost taps to the bit.
+// These taps count, however both are rounded (the article's half floats are coarser than this).
 constexpr float kTie = 1 - 1e-4f;
 
 float smoothstep(float low, float high, float x) {
@@ -190,8 +190,8 @@ private:
         });
     }
 
-    // Four taps, as far off on both axes: at half a cell, with bilinear reads, a tent of 3 x 3; at a whole
-    // one, as published, the corners of that alone.
+    // Four taps at the same offset on both axes. At half a cell, bilinear reads make them a tent of 3 x 3
+    // cells; at a whole cell, as published, they read only the corners of that square.
     Picture blurred(const Picture& half) const {
         const View<const Rgba> from = half;
         const float off = float(in_.options.of<GatherOwn>().gather.tap_offset);

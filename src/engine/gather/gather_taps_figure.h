@@ -19,15 +19,16 @@ struct DrawnTap {
 
 struct TapsFigure {
     Picture picture;  // drawn upon
-    // Light in the disc around a pixel at a place of the unit disc; its samples.
+    // light: of the disc around pixel (x, y), at the place (u, v) of the unit disc. taps: the samples of that
+    // disc.
     std::function<Rgba(int x, int y, float u, float v)> light;
     std::function<std::vector<DrawnTap>(int x, int y)> taps;
 };
 
-// The picture, dimmed, under discs two to its height, each round the pixel that it is drawn upon and
-// enlarged to be seen: its samples as dots, each with a line towards the middle as long as its own radius.
-// Lines that arrive belong to samples that count, bright; the others are dark and end on the way. Orange is
-// behind focus, blue in front.
+// Draws enlarged discs on the dimmed picture, two to its height, each around the pixel that it belongs to.
+// Dots are the samples, each with a line towards the middle as long as its own radius. Lines that arrive
+// belong to samples that count and are bright; the others are dark and end on the way. Orange is behind
+// focus, blue in front.
 Picture drawn(TapsFigure figure, Workers& workers);
 
 }  // namespace petzval::engine

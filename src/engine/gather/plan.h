@@ -42,8 +42,8 @@ struct GatherPlan {
     std::vector<Tile> tiles;
     device::KernelSet kernels;
     Zones zones;  // of the picture: light is spread by the kernels of the zone that it comes from
-    // The place of a ring's kernel, or core, in `kernels`, by zone, and after those of all rings their
-    // skirts'; of rings that have light in the zone.
+    // Index in `kernels` of the kernel, or core, of each ring, by zone; the skirts follow after all rings.
+    // Only rings that have light in the zone have one.
     std::vector<std::uint32_t> places;
     int place_of(int ring, int zone, bool skirt) const {
         return (2 * zone + (skirt ? 1 : 0)) * sizes.count() + ring;

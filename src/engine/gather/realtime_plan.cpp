@@ -54,7 +54,7 @@ std::vector<Rgba> shape_of(const PointSpread& spread, double radius_px) {
     return shape;
 }
 
-// A kernel of its own radius made into those of lamps' radii.
+// Makes kernels of the lamps' radii from a kernel of radius_px.
 void add_lamp_kernels(const PointSpread& spread, double radius_px, std::size_t begins,
                       std::vector<Rgba>& fours) {
     double lamp_px = LampKernels::kFirstPx;
@@ -72,7 +72,7 @@ void add_lamp_kernels(const PointSpread& spread, double radius_px, std::size_t b
                                                      pixel, float(cell * cell)));
                 sum += fours.back();
             }
-        // Light that a shape throws beyond its square stays in it.
+        // Light beyond the square is given to the cells inside it.
         for (std::size_t k = first; k < fours.size(); ++k) {
             Rgba& f = fours[k];
             f = {f.r / sum.r, f.g / sum.g, f.b / sum.b, f.a / sum.a};
@@ -158,7 +158,7 @@ int realtime_taps(Quality quality) {
 
 RealtimeLens realtime_lens(const kernel::LensModel& lens, const RealtimeZones& zones, double near_radius_px,
                            double far_radius_px, int taps) {
-    // Large enough to show the shape, no larger than can be made in a moment.
+    // Radii of the kernel: large enough to show its shape, small enough to be made in a moment.
     constexpr double kLeastPx = 16, kMostPx = 64;
     RealtimeLens made;
     std::vector<Rgba>& fours = made.fours;

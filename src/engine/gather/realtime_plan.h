@@ -16,16 +16,17 @@
 
 namespace petzval::engine {
 
-// Kernels of kSteps radii, cell by cell, each sqrt(2) times as large as the one before: first, of all in
-// front of focus and then of all behind it, where each begins (its first four, cells from the middle to the
-// rim of its square, radius in cells, 0); then their weights, which sum to 1. A cell is a pixel, or half of
-// one up to kFinePx, because interpolation between whole pixels would soften the rims of small discs.
+// Kernels of lamps: of kSteps radii, each sqrt(2) times as large as the one before. First come their heads,
+// those in front of focus and then those behind it: index of the kernel's first four, cells from the middle
+// to the rim of its square, radius in cells, 0. Then come the weights of all kernels; those of one kernel sum
+// to 1. A cell is a pixel, or half of one up to kFinePx, because interpolation between whole pixels would
+// soften the rims of small discs.
 struct LampKernels {
     static constexpr int kSteps = 14;
     static constexpr double kFirstPx = 0.5, kHalf = 1.25;  // pixels; radii that a square is half as wide as
     static constexpr double kFinePx = 8.1;
     static constexpr int cells_per_px(double radius_px) { return radius_px < kFinePx ? 2 : 1; }
-    // In cells: all that the shape holds, and a rim of nothing.
+    // Half the side of a kernel's square in cells: the whole shape and an empty rim.
     static constexpr int half_side(double radius_px) {
         return int(kHalf * radius_px * cells_per_px(radius_px)) + 2 * cells_per_px(radius_px);
     }
@@ -49,15 +50,17 @@ struct RealtimeZones {
     std::uint32_t count() const { return columns * rows; }
     kernel::FieldPosition at(std::uint32_t zone) const;
 };
-// One zone where the lens is the same over the field, else 45. The size: of the frame, in widths of a pixel.
+// One zone if the lens is the same over the field, otherwise 45. width, height: of the frame, in widths of a
+// pixel.
 RealtimeZones realtime_zones(const kernel::LensModel& lens, double width, double height);
 
-// Fours of floats, one after the other: number of taps, side of the squares that they read on a disc of
-// radius 1, columns and rows of zones; taps over that disc (x, y, distance from the middle, weight near it),
-// kSets of kMostTaps, for the four cells of each square, because their taps together are as good as four
-// times as many; then for each zone weights of taps for light blurred by a share of the disc's radius,
-// kShares of them from 0 to 1 for each tap of each set, in front of focus and then behind it: r, g, b and a,
-// each of which sums to 1 over the taps. Then LampKernels.
+// The lens as fours of floats. The first four is a head: number of taps, side of the squares that they read
+// on a disc of radius 1, columns and rows of zones. Taps over that disc follow (x, y, distance from the
+// middle, weight near it): kSets of kMostTaps, one set for each of the four cells of a square, because their
+// taps together are as good as four times as many. Then each zone has the weights of its taps, kShares for
+// each tap of each set, for light blurred by 0 to 1 of the disc's radius, in front of focus and then behind
+// it. A weight has r, g, b and a, and each of these sums to 1 over the taps. The LampKernels of a zone come
+// last.
 struct RealtimeLens {
     static constexpr int kMostTaps = 127, kSets = 4, kShares = 64;
     static constexpr std::size_t kWeights =

@@ -23,7 +23,8 @@ Picture usable_light(View<const Rgba> picture, Workers& workers) {
     return light;
 }
 
-// Leaves finite colour, less what the parts take. An empty picture of highlights: none are taken.
+// Makes colours finite and subtracts the light that each part of glare takes. `bright` and `bloom_light` may
+// be empty: then nothing is taken of them.
 void take(View<Rgba> picture, View<const Rgba> bright, View<const Rgba> bloom_light, const GlarePlan& plan,
           Workers& workers) {
     parallel_for(picture.height(), workers, [&](int y) {

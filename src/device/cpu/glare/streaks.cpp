@@ -21,7 +21,7 @@ struct Lit {
 
     Lit(int width, int height)
         : light(width, height), tiles((width + kTile - 1) / kTile, (height + kTile - 1) / kTile) {}
-    // Any light in the tile at (column, row), moved by so many pixels?
+    // True if the tile at (column, row), moved by so many pixels, holds any light.
     bool any(int column, int row, int dx, int dy) const {
         const auto tile = [](int px) { return int(std::floor(double(px) / kTile)); };
         for (int j = tile(row * kTile + dy); j <= tile((row + 1) * kTile - 1 + dy); ++j)
@@ -46,7 +46,7 @@ Lit reduced(View<const Rgba> light, int factor, Workers& workers) {
     return small;
 }
 
-// One tile of one tap; nothing beyond the frame.
+// Adds one tap to one tile. There is no light beyond the frame.
 void add_tap(Picture& out, const Picture& in, int column, int row, const StarTap& tap) {
     const int x0 = std::max(column * kTile, -tap.dx),
               x1 = std::min({(column + 1) * kTile, out.width(), out.width() - tap.dx});

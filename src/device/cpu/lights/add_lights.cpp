@@ -18,7 +18,7 @@ using kernel::PointSpread;
 
 namespace {
 
-// Null: nothing is in the way.
+// Null: no occluder.
 std::unique_ptr<const PupilShadow> shadow_of(const LightsPlan& plan, const Viewpoint& view) {
     const std::vector<SeenCaster> casters = seen_casters(plan, view);
     if (casters.empty()) return nullptr;

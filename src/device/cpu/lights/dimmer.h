@@ -10,11 +10,11 @@
 
 namespace petzval::device {
 
-// Made for one kernel at a time: a row of the grid is one of 256, and each is laid out over the kernel's
-// width when a light first has it.
+// Serves one kernel at a time. A row of the grid has one of 256 patterns; each pattern is laid out over the
+// kernel's width when a light first has it.
 class Dimmer {
 public:
-    // radius: of the kernel, signed, in its cells. `kernel` outlives what rows() returns.
+    // radius: of the kernel, signed, in its cells. `kernel` must outlive the result of rows().
     void use(const engine::StampKernel& kernel, float radius, float pixel_aspect);
     // A row for each of the kernel's, valid until the next call.
     const engine::DimmedRow* rows(const engine::PupilMask& mask);

@@ -9,14 +9,15 @@
 
 namespace petzval::device {
 
-// On a grid whose cells are the taps of the highlight's disc, or equal parts of them where the disc has few.
+// The pupil as a grid, whose cells are the taps of the highlight's disc, or equal parts of them if the disc
+// has few.
 class PupilShadow {
 public:
     explicit PupilShadow(const engine::ShadowGrid& grid);
 
     void cover(std::span<const engine::SeenCaster> casters);
 
-    // Ends covering.
+    // Call it after the last cover().
     void finish();
     // The share of the rays to each tap of a row that nothing stops, from tap (dx, dy) on; taps are counted
     // from the first one of the disc's square. Requires: finished.

@@ -81,7 +81,7 @@ private:
         return a.kernel == b.kernel && a.highlight.x == b.highlight.x && a.highlight.y == b.highlight.y;
     }
 
-    // All lights from `begin` on that share its kernel; returns the next.
+    // Stamps all lights from `begin` on that share its kernel; returns the next.
     std::size_t stamp_kernel(std::size_t begin) {
         const PlannedLight& first = light(begin);
         const StampSet& set = atlas_[first.kernel];

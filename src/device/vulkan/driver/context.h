@@ -42,7 +42,8 @@ public:
     const Program& program(Shader shader, std::uint32_t variant = 0);
     void submit(VkCommandBuffer commands, VkFence fence);
 
-    // Multiply-adds of the next submission of these passes; how long one took.
+    // most_work(): multiply-adds of the next submission of these passes. note_work(): the seconds that one
+    // took.
     std::uint64_t most_work(const std::string& passes) const;
     void note_work(const std::string& passes, std::uint64_t multiply_adds, double seconds);
     // Amount drawn at once; the limit is halved each time memory runs out.
@@ -50,7 +51,8 @@ public:
     // Handles exhausted memory: releases kept memory and halves the amount drawn at once, which said()
     // reports. False: something else failed, or halving no longer helps.
     bool halves(const Failed& failed);
-    // Lets go of memory that is only kept, where it runs out. Set before anything is drawn.
+    // Function that releases memory kept for later frames; it is called when memory runs out. Set it before
+    // anything is drawn.
     void lets_go_by(std::function<void()> let_go) { let_go_ = std::move(let_go); }
     // A line for said(), once.
     void say(const std::string& what);

@@ -27,7 +27,7 @@ class Heap {
     struct Block;
 
 public:
-    // block_bytes: of the device's memory that is taken at least, each time.
+    // block_bytes: the least size of a block that is taken from the device.
     Heap(Opened opened, const VkPhysicalDeviceMemoryProperties& memory,
          std::size_t block_bytes = std::size_t(32) << 20);
     ~Heap();
@@ -70,7 +70,7 @@ public:
     std::size_t allocated_bytes() const;  // of blocks
     // Limits the memory as if the device had no more.
     void limit(std::size_t most_bytes);
-    // Lets go of blocks that hold nothing.
+    // Releases blocks that hold no piece.
     void trim();
 
 private:

@@ -27,7 +27,7 @@ struct LentMemory {
 class DeviceImage {
 public:
     DeviceImage() = default;
-    // lent: moves on behind the image.
+    // lent: `next` moves behind the image.
     DeviceImage(Opened opened, const VkPhysicalDeviceMemoryProperties& memory, const ImageKind& kind,
                 LentMemory* lent = nullptr);
     // Memory that an image of this kind needs.

@@ -72,7 +72,7 @@ void Recording::order(VkPipelineStageFlags to, VkAccessFlags access) {
                              to, 0, 1, &barrier, 0, nullptr, 0, nullptr);
 }
 
-// Plans are cut so that this fails for no picture that was met; a kernel of a few thousand pixels may.
+// Plans are cut so that all pictures that were tested pass; a kernel of a few thousand pixels may fail.
 void Recording::check_range(const Piece& piece) const {
     const std::size_t most = context_.most_range_bytes();
     if (piece.size() <= most) return;

@@ -33,7 +33,8 @@ public:
     Recording(const Recording&) = delete;
     Recording& operator=(const Recording&) = delete;
 
-    // A new piece on the device with this in it, once run; lives until then at least.
+    // A new piece on the device that holds these bytes once the recording has run. It lives at least until
+    // then.
     Piece uploaded(std::span<const std::byte> bytes);
     template <typename T>
     Piece uploaded(std::span<const T> values) {
@@ -45,18 +46,19 @@ public:
               const Push& push, Groups groups, const PassWork& work = {}) {
         pass(name, program, buffers, std::as_bytes(std::span(&push, 1)), groups, work);
     }
-    // Around what is recorded by other means and timed.
+    // Call these around commands that other code records, to time them.
     void begin_pass(const char* name, const PassWork& work = {});
     void end_pass();
     // Copies from one piece to another, from that byte offset on.
     void copy(const Piece& from, const Piece& to, std::size_t bytes, std::size_t from_byte = 0,
               std::size_t to_byte = 0);
-    // The piece's bytes once run, in memory that the host sees; lives as long as this.
+    // The piece's bytes once the recording has run, in memory that the host sees. They live as long as this.
     const std::byte* downloaded(const Piece& piece, std::size_t bytes);
     // The command buffer, for other recording code: uploads may be copied from here on.
     VkCommandBuffer commands() const { return commands_; }
     void wait_for_uploads() { order(VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT); }
-    // Starts; then waits for the end. Nothing is recorded afterwards. Returns the seconds that it took.
+    // Runs the commands and waits for their end. Nothing may be recorded afterwards. Returns the seconds that
+    // it took.
     double run();
 
 private:

@@ -263,7 +263,7 @@ void RealtimePass::write_given(const Slot& slot, const RealtimeImages& images) c
     for (const Step step : {kSplit, kCombine})
         write_image(slot.sets[step], 0, kSampled, sampled(images.colour));
     write_image(slot.sets[kSplit], 1, kSampled, sampled(images.depth));
-    // Without one something must be bound all the same.
+    // Frames without a layer bind the colour instead, because something must be bound.
     write_image(slot.sets[kCombine], 2, kSampled, sampled(images.layer.view ? images.layer : images.colour));
     write_image(slot.sets[kCombine], 4, kStored, {VK_NULL_HANDLE, images.result, VK_IMAGE_LAYOUT_GENERAL});
 }
@@ -321,7 +321,8 @@ void RealtimePass::order(VkCommandBuffer commands, VkPipelineStageFlags from, Vk
     vk_.vkCmdPipelineBarrier(commands, from, to, 0, 1, &barrier, 0, nullptr, 0, nullptr);
 }
 
-// After all of the frame before: its images are ours again, and the lens is written if it changed.
+// Waits, on the device, for the frame before: its images are free again, and the lens is copied if it
+// changed.
 void RealtimePass::take_lens(VkCommandBuffer commands, Slot& slot) {
     constexpr VkPipelineStageFlags kCompute = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
     {

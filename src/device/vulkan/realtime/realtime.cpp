@@ -86,7 +86,7 @@ public:
         RealtimeWork work(pass_.tiles_x(), pass_.tiles_y(), optics);
         for (const Step step : {RealtimePass::kMeasure, RealtimePass::kSplit, RealtimePass::kReach,
                                 RealtimePass::kGather, RealtimePass::kCombine}) {
-            // The last step's work is known once it is known where lamps are.
+            // The work of the last step is known once the lamps have been found.
             if (step == RealtimePass::kCombine) count_lamps(submissions, work);
             if (!draw_step(step, submissions, work, progress, plant)) return false;
         }
@@ -108,7 +108,7 @@ public:
 private:
     using Step = RealtimePass::Step;
 
-    // Returns what is to live until it has run.
+    // Returns the pieces that must live until the recording has run.
     std::array<Piece, 2> begin(Recording& recording, const engine::RealtimePlan& plan, int first,
                                const RealtimeOptics& optics) {
         const std::vector<Rgba> colours = packed<Rgba>(plan.colour, first, first + int(height_));

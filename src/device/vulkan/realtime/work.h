@@ -1,4 +1,4 @@
-// Work of the real-time pass, so that it can be cut.
+// Estimates the work of the real-time pass, so that it can be cut into submissions.
 #pragma once
 
 #include "device/vulkan/realtime/pass.h"
@@ -14,8 +14,8 @@ class RealtimeWork {
 public:
     RealtimeWork(std::size_t tiles_x, std::size_t tiles_y, const RealtimeOptics& optics);
 
-    // Once step kReach has run: what is in the pass's lamps_kept() and lamp_boxes(). Until then there are
-    // none.
+    // Takes the contents of the pass's lamps_kept() and lamp_boxes(), once step kReach has run. Until then
+    // there are no lamps.
     void take_lamps(const std::uint32_t* kept, const std::int32_t* boxes);
     // The most lamps that any tile's box holds.
     std::uint64_t most_lamps() const { return most_lamps_; }

@@ -9,7 +9,7 @@ layout(push_constant) uniform Push {
     uint view;  // what is drawn: petzval/vulkan.h
 } at;
 
-// Fours of a lens: number of taps, their side, columns and rows of zones; taps; then those of each zone.
+// The lens as fours of floats: number of taps, their side, columns and rows of zones; taps; then the weights of each zone.
 const int kMostTaps = 127, kSets = 4, kShares = 64, kFirstZone = 1 + kSets * kMostTaps, kOfZone = 132824;
 // Place in the grid of zones, from its first node.
 vec2 zone_place(vec2 pixel, vec2 zones) { return clamp(at.zone_scale * pixel + at.zone_add, vec2(0), vec2(1)) * (zones - 1); }
@@ -33,10 +33,10 @@ float radius_of(float depth) {
     const float radius = at.add_px + at.per_depth_px * depth;
     return radius == radius ? clamp(radius, -at.most_px, at.most_px) : 0.0;
 }
-// The share of something at a radius that cells draw; the rest is blurred pixel by pixel.
+// The share of light at this radius that cells draw; the rest is blurred pixel by pixel.
 const float kWholePx = 3.5;  // from there on they draw all
 float blurred_share(float radius_px) { return smoothstep(2.0, kWholePx, radius_px); }
-// The radius if something this blurred is blurred pixel by pixel, 0 if not.
+// The radius if light at this radius is blurred pixel by pixel, 0 if not.
 float pixelwise(float radius_px) { return radius_px > 0.5 && radius_px < kWholePx ? radius_px : 0.0; }
 // The radius that cells gather over: with the blur of the cells themselves (boxes and tents of two pixels)
 // the disc has the right second moment.

@@ -30,7 +30,7 @@ float reach_of(float radius) {
     const float all = max(abs(radius), 0.5), reach = max(all - 1 / (24 * all), 0.5);
     return radius < 0 ? -reach : reach;
 }
-// All invocations of the group together.
+// Reads the window; all invocations of the group call it together.
 void read_window() {
     const int own = int(gl_LocalInvocationIndex);
     const ivec2 first = 8 * ivec2(gl_WorkGroupID.xy) - kRim;
@@ -102,12 +102,12 @@ Fine fine(vec4 sharp, float radius, float back_px, float near_px) {
         if (guess_area > 0) sum.back = guess / guess_area;
         else if (sum.area > 0) sum.back = sum.near / sum.area;
     }
-    // A disc counted pixel by pixel is its area to 4 %.
+    // The covered area of a disc, counted pixel by pixel, is right to 4 %.
     if (sum.area > 1) sum.near /= sum.area, sum.area = 1;
     return sum;
 }
 
-// Interpolates between the four cells around it; near focus, cells as blurred as the pixel count first.
+// Interpolates back light between the four cells around the pixel; near focus, cells as blurred as the pixel count first.
 vec4 back_at(ivec2 pixel, float radius, out float is_known) {
     const vec2 place = (vec2(pixel) + 0.5) * 0.5 - 0.5;
     const ivec2 low = ivec2(floor(place)), last = 8 * at.tiles - 1;
@@ -121,7 +121,7 @@ vec4 back_at(ivec2 pixel, float radius, out float is_known) {
         const vec2 near_it = mix(mix(1 - share, share, vec2(d)), vec2(0.5), smoothstep(16.0, 40.0, radius));
         const float own = gathered_radius(radius);
         float alike = radius > 0 ? exp2(-4 * abs(area.y - own) / (1 + 0.5 * radius)) : 1.0;
-        // If neither is nearly sharp, both know the light between them.
+        // If neither the pixel nor the cell is nearly sharp, both know the light between them.
         alike = mix(alike, 1.0, smoothstep(1.0, 2.5, min(own, area.y)));
         const float w = near_it.x * near_it.y * area.z * max(alike, 1e-4);
         sum += w * texelFetch(gathered, ivec3(cell, kGatheredBack), 0);
@@ -143,7 +143,7 @@ vec4 viewed(vec4 made, float radius, vec4 reaches, vec4 behind, vec4 before, vec
 }
 
 void main() {
-    // A group whole or not at all: its invocations look for lamps together.
+    // A group runs as a whole or not at all, because its invocations look for lamps together.
     const ivec2 place_of_group = ivec2(gl_GlobalInvocationID.xy), pixel = min(place_of_group, at.size - 1);
     const vec2 place = (vec2(pixel) + 0.5) * 0.5 / vec2(8 * at.tiles);
     const ivec2 tile = 8 * ivec2(gl_WorkGroupID.xy) / kTile;
@@ -173,12 +173,12 @@ void main() {
     vec4 base = own.back;
     if (blurred > 0) {
         const vec4 back = back_at(pixel, radius, is_known);
-        // Light drawn pixel by pixel, whichever pixel it comes from, leaves the rest of the pixel's lens to cells.
+        // Light drawn pixel by pixel leaves the rest of the pixel's lens to cells, whichever pixel it comes from.
         base = mix(base, back, is_known * min(blurred, 1 - own.back_area));
     }
     const bool fills = area > 0 && is_known == 0 && hidden > 0.99;
     const float covers = fills ? 1.0 : min(area, 1.0);
-    // A surface that both draw in part is one: its parts lie side by side.
+    // Near light that pixels and cells both draw in part is one surface: the parts lie side by side.
     const float free = 1 - covers, open = min(free + min(fine_area, covers), own.area > 0 ? free / own.area : 1.0);
     vec4 made = (area > 0 ? covers / area : 0.0) * near + open * own.near + (free - open * own.area) * base;
     made += (1 - own.area) * back_lamps + near_lamps;

@@ -1,5 +1,5 @@
-// Gathers one cell: what is in focus and behind over the cell's own radius, what is in front of focus over all that
-// reaches its tile.
+// Gathers one cell: light in focus and behind it over the cell's own radius, light in front of focus over the largest
+// radius that reaches its tile.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -32,7 +32,7 @@ Disc disc_of(vec2 middle, float radius_px) {
 }
 vec4 read_cells(Disc disc, vec2 tap, int layer) { return textureLod(cells, vec3(disc.middle + tap * disc.scale, layer), disc.level); }
 
-// Adds what a tap says of something hidden: bright things hide behind nothing, as far as is known.
+// Adds a tap's evidence of hidden light. Bright light gets little weight, because nothing bright is assumed to be hidden.
 void guess(vec4 there, float there_area, float weight, inout vec4 light, inout float area) {
     const float likely = weight / (1 + 0.3 * at.exposure * brightness(there) / there_area);
     light += likely * there, area += likely * there_area;
@@ -97,7 +97,7 @@ Sum back_over(vec2 middle, float radius, float own_px, int which) {
         sum.light += w * light;
         sum.area += w.a * there.x;
     }
-    // Not the largest: a mean of cells beside a silhouette has a radius between both.
+    // The mean and not the largest, because a mixed cell beside a silhouette has a radius between both surfaces'.
     if (less_sum.x > 0) sum.less_px = min(1.2 * sqrt(less_sum.y / less_sum.x), kAsBlurred * own_px);
     return sum;
 }
@@ -106,7 +106,7 @@ Sum back_over(vec2 middle, float radius, float own_px, int which) {
 // only a few taps in that disc: it is gathered over its own reach, and lies on top.
 vec4 back_of(vec2 middle, vec4 own_light, float own_px, vec2 slope, out float area) {
     const float radius = max(own_px, 1.0);
-    // On a surface that recedes, as far as its light comes from.
+    // On a surface that recedes, the disc covers the place that its light comes from.
     const Sum own = back_over(middle - kShift * radius * slope, (1 + length(slope)) * radius, radius, kAlike);
     area = own.area + own.more_area;
     vec4 light = own.area > 0 ? own.light / own.area : own_light;
@@ -192,8 +192,8 @@ NearSum near_over(vec2 middle, float radius, float most_px, bool is_less) {
     if (less_sum.x > 0) sum.less_px = min(1.2 * sqrt(less_sum.y / less_sum.x), kNearLess * most_px);
     return sum;
 }
-// Light blurred far less than a nearer surface has a few taps in that surface's disc: it is gathered over its own reach,
-// and seen past it.
+// Light blurred far less than a nearer surface has only a few taps in that surface's disc. It is gathered over its own
+// radius, and seen past that surface.
 vec4 near_of(vec2 middle, float radius, out vec2 area) {
     NearSum near = near_over(middle, radius, radius, false);
     if (near.less_px > 0) {

@@ -9,7 +9,8 @@ vec2 surroundings_at(ivec2 pixel) {
                mix(surroundings[high.y * at.tiles.x + low.x], surroundings[high.y * at.tiles.x + high.x], share.x), share.y);
 }
 
-// Mean brightness of 3 x 3, 5 x 5 and 9 x 9 tiles around the group's own. All invocations of the group together.
+// Means of brightness over 3 x 3, 5 x 5 and 9 x 9 tiles around the group's own. All invocations of the group call it
+// together.
 const int kWindows = 3;
 shared float around_sums[64][kWindows];
 void measure_around() {
@@ -53,8 +54,9 @@ float radius_of_brightest(ivec2 low, int side, out float most, out float all) {
     return radius;
 }
 
-// A lamp stands out from the surfaces around it, and as a disc of its own radius from all light that such discs bring
-// there: it is at least a sixteenth of that, so no more than about sixteen lamps reach a pixel. All else is shown by taps.
+// The light of a lamp in this pixel. A lamp stands out from the surfaces around it. It also has at least a sixteenth of the
+// light that all discs of its radius bring to a pixel, so about sixteen lamps at most reach a pixel. Taps show all other
+// light.
 vec4 lamp_of(ivec2 pixel, vec4 light) {
     const float kStandsOut = 1.0 / 16;
     const vec2 around = surroundings_at(pixel);

@@ -22,7 +22,7 @@ void main() {
         barrier();
         if (own < half_way) sums[own] += sums[own + half_way];
     }
-    // Squared mean of roots: lamps hardly raise it, surfaces do.
+    // The squared mean of roots: surfaces raise it, lamps hardly do.
     if (own == 0u) {
         const vec2 mean = sums[0] / 256;
         surroundings[gl_WorkGroupID.y * uint(at.tiles.x) + gl_WorkGroupID.x] = vec2(mean.x * mean.x, mean.y);

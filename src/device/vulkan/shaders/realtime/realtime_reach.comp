@@ -1,5 +1,5 @@
-// The largest radius in front of focus that reaches a tile, from whatever tile it comes, and the box of tiles whose lamps
-// reach it. Where more reach it than a pixel is to add, its own lamps are merged.
+// Finds the largest radius in front of focus that reaches a tile, from any tile, and the box of tiles whose lamps reach it.
+// If too many lamps reach a tile, its own lamps are merged.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 64) in;
@@ -19,7 +19,8 @@ layout(binding = 5, rgba16f) uniform image2DArray cells;  // the finest
 const uint kMostLamps = 256;  // that reach a tile before its own are merged
 
 #ifndef WITHOUT_MERGING
-// Cells with a lamp, 32 to a word (four rows of eight), of which squares of `side` cells hold any: at the square's first.
+// Marks the squares of `side` x `side` cells that hold any lamp, at the first cell of each. A mask has 32 cells in a word,
+// as four rows of eight.
 uvec2 squares_of(uvec2 mask, int side) {
     if (side >= 2) mask = (mask | mask >> 1 | mask >> 8 | mask >> 9) & 0x00550055u;
     if (side >= 4) mask = (mask | mask >> 2 | mask >> 16 | mask >> 18) & 0x00000011u;
@@ -34,7 +35,7 @@ struct Merged {
 };
 void put(Merged lamp, ivec2 tile, int cell, inout uvec2 left) {
     if (lamp.bright == 0) return;
-    // Times a power of two, where halves would not hold it.
+    // The light is divided by a power of two if halves would not hold it.
     const float most = max(lamp.light.r, max(lamp.light.g, lamp.light.b)), factor = exp2(ceil(max(0.0, log2(most / (4 * kMostLight)))));
     const ivec3 at_cell = ivec3(8 * tile + ivec2(cell % 8, cell / 8), kLampLight);
     const vec3 place = lamp.place / lamp.bright;
@@ -64,8 +65,8 @@ uvec2 merge(ivec2 tile, uvec2 mask, int side) {
     return left;
 }
 
-// Number of lamps such that no more than kMostLamps would be left if all tiles around were like this one: at
-// least one on each side of focus.
+// Merges the tile's lamps until no more than kMostLamps would reach a tile if all tiles around were like this one. At least
+// one lamp stays on each side of focus.
 uvec2 thinned(ivec2 tile, uvec2 mask, uint all) {
     const uint own = uint(bitCount(mask.x) + bitCount(mask.y)), most = max(1u, own * kMostLamps / max(all, 1u));
     if (own <= most) return mask;

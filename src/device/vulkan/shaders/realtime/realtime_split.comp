@@ -20,8 +20,8 @@ shared vec4 part[kLayers][64];
 shared vec4 radii[64];
 shared uint lamp_cells[2], lamp_px;  // as bits: they are ordered as floats are
 
-// The signed radius of a cell's lamp, which is that of its brightest pixel. But a bright pixel or two among dark ones of their
-// depth, beside what is farther, are a lamp behind that a near thing covers in part.
+// The signed radius of a cell's lamp, which is that of its brightest pixel. One or two bright pixels among dark ones of the
+// same depth, beside farther pixels, are a half-covered lamp behind.
 float lamp_radius(ivec2 cell) {
     const int kSide = 4;
     const ivec2 low = 2 * cell - 1;
@@ -60,7 +60,8 @@ void keep_lamp(ivec2 cell, vec4 light, vec2 place) {
     }
 }
 
-// The share of a near colour in a pixel whose colour lies between it and one behind it; 0: it does not.
+// The share of a near colour in a pixel whose colour lies between the near colour and one behind it; 0 if it does not lie
+// between them.
 float share_of(vec4 near, vec4 light, vec4 behind) {
     const float kAlike = 0.97;
     const vec3 more = light.rgb - behind.rgb, most = near.rgb - behind.rgb;
@@ -78,7 +79,7 @@ float own_radius(ivec2 pixel, vec4 light) {
     vec4 bright = light, dark = light;
     vec2 found = vec2(radius);  // of the brightest nearer pixel around, and of the darkest
     ivec2 to_bright = ivec2(0), to_dark = ivec2(0);
-    // A loop: nine pixels at once take half as many registers again.
+    // A loop, because nine pixels at once need half as many registers again.
     [[dont_unroll]] for (int i = 0; i < 9; ++i) {
         const ivec2 d = ivec2(i % 3, i / 3) - 1, there = clamp(pixel + d, ivec2(0), at.size - 1);
         const float reaches = radius_of(texelFetch(depths, there, 0).r);
@@ -130,7 +131,7 @@ void main() {
         range = max(range, vec4(-radius, pixelwise(radius), pixelwise(-radius), -radius));
         const float near = 0.25 * blurred_share(-radius), back = 0.25 * smoothstep(-2.5, -2.0, radius);
         near_light += near * light, near_area += near;
-        // The mean over two depths has the radius of the brighter light.
+        // The brighter light decides the mean radius of a cell with two depths.
         const float near_count = near * counts_of(light);
         near_counts += near_count;
         near_radius += near_count * gathered_radius(radius);

@@ -57,7 +57,7 @@ vec4 kernel_at(int lamp, vec2 offset) {
     return sum;
 }
 
-// Loops of steps are not unrolled: the registers would keep other groups out.
+// Loops of steps are not unrolled, because more registers would leave fewer groups in flight.
 
 // Visible share of a lamp behind focus from a pixel: on its way to (x, y) light has its radius at `from` and
 // none at `to`; an occluder with the remaining radius stops it there.
@@ -129,8 +129,8 @@ float least_between(ivec2 a, ivec2 b) {
     return least;
 }
 
-// All invocations of the group together: each looks at a tile of the box, and then reads a lamp of those found. What none
-// of their pixels sees costs them no more.
+// All invocations of the group call it together: each looks at a tile of the box, and then reads one of the lamps found.
+// Lamps that no pixel of the group sees cost the others nothing more.
 shared uint lamp_counts[64], all_lamps;  // of the tiles
 shared uvec2 lamps_found[64];  // cell: column, row << 16; bits of the smallest radius up to its tile
 void add_all_lamps(ivec2 pixel, float near_px, inout vec4 near, inout vec4 back) {
