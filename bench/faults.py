@@ -1,28 +1,34 @@
 #!/usr/bin/env python3
 """Every allocation of a command fails once: how its runs end.
 
-Usage: bench/faults.py PETZVAL FAULTS [--command N] [--part K/N]. FAULTS is libpetzval_faults.so of the build's tests/cli.
-Command 0 is `petzval --version`, whose allocations every command makes before its own; the others are those of
-tests/cli/single_fault_test.py, which this counts from where --version ends. --part 1/2 runs every second call. Prints
-one Markdown row for a command. Exit code 1 if a run ended in another way than with its right result, or with one line
-and exit code 1.
+Usage: bench/faults.py PETZVAL FAULTS [--command N] [--part K/N] [--sample N]. FAULTS is libpetzval_faults.so of the
+build's tests/cli. Command 0 is `petzval --version`, whose allocations every command makes before its own; the others
+are those of tests/cli/single_fault_test.py, which this counts from where --version ends. --part 1/2 runs every second
+call; --sample N runs N calls chosen at random, the same ones each time. Prints one Markdown row for a command. Exit
+code 1 if a run ended in another way than with its right result, or with one line and exit code 1.
 """
 import argparse
 import collections
 import os
 import pathlib
+import random
 import sys
 import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tests/cli"))
 
+SEED = 32
 
-def run(test, command, first, part, parts):
+
+def run(test, command, first, part, parts, sample):
     """Exit codes by count, and the runs that broke a promise."""
     test.remove_outputs()
     count, right = test.calls(command)["malloc"], test.outputs()
     codes, wrong = collections.Counter(), 0
-    for call in range(first + part - 1, count + 1, parts):
+    chosen = range(first + part - 1, count + 1, parts)
+    if 0 < sample < len(chosen):
+        chosen = sorted(random.Random(SEED).sample(chosen, sample))
+    for call in chosen:
         try:
             codes[test.check_call(command, "malloc", call, (0, 1), right)] += 1
         except AssertionError as broken:
@@ -37,6 +43,7 @@ def main():
     parser.add_argument("faults", type=os.path.abspath)
     parser.add_argument("--command", type=int)
     parser.add_argument("--part", default="1/1")
+    parser.add_argument("--sample", type=int, default=0)
     words = parser.parse_args()
     os.environ.update(PETZVAL=words.petzval, PETZVAL_FAULTS=words.faults)
     import single_fault_test as tests  # reads the environment
@@ -54,7 +61,7 @@ def main():
                 continue
             begin = time.monotonic()
             first = before + 1 if number else 1
-            count, codes, wrong = run(test, command, first, part, parts)
+            count, codes, wrong = run(test, command, first, part, parts, words.sample)
             print(f"| `{' '.join(command)}` | {count} | {first} | {sum(codes.values()) + wrong} | {codes[0]} | {codes[1]} | "
                   f"{wrong} | {time.monotonic() - begin:.0f} |", flush=True)
             broken += wrong
