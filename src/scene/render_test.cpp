@@ -188,8 +188,8 @@ TEST(SceneLayers, ThroughTheHolesOfACutOutTheRestIsSeen) {
     SceneSettings s = settings(32, 18);
     s.want_layers = true;
     const RenderedScene r = rendered(world, s);
-    EXPECT_EQ(r.depth_m(8, 9), 2);
-    EXPECT_EQ(r.depth_m(24, 9), 5);
+    EXPECT_FLOAT_EQ(r.depth_m(8, 9), 2);
+    EXPECT_FLOAT_EQ(r.depth_m(24, 9), 5);
     EXPECT_EQ(r.truth(31, 9), (Rgba{0, 0.25f, 0, 1}));
     EXPECT_EQ(r.layers.at(24, 9).size(), 1u);  // the sky behind the wall
 }
