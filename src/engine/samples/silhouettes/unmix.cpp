@@ -3,6 +3,7 @@
 #include "engine/samples/hidden.h"
 #include "engine/samples/known_surfaces.h"
 #include "engine/samples/outlines/outline.h"
+#include "engine/samples/silhouettes/bridges.h"
 #include "engine/samples/silhouettes/strands.h"
 #include "engine/samples/silhouettes/two_surfaces.h"
 #include "laws/surfaces.h"
@@ -68,8 +69,8 @@ struct Sides {
     float near_share_by_shape = 0;
 };
 
-Sides look_around(const LitPicture& picture, View<const float> coc, View<const unsigned char> touching, int x,
-                  int y, float threshold, const UnmixRule& rule) {
+Sides look_around(const LitPicture& picture, View<const float> coc, View<const float> stated,
+                  View<const unsigned char> touching, int x, int y, float threshold, const UnmixRule& rule) {
     Sides s;
     const int reach = rule.clean_within_px;
     const Rect window = Rect{x - reach, y - reach, x + reach + 1, y + reach + 1}.intersected(coc.rect());
@@ -92,7 +93,7 @@ Sides look_around(const LitPicture& picture, View<const float> coc, View<const u
                 if (d2 < s.far_closest) s.far_closest = d2, s.far_coc = coc(u, v);
             }
         }
-    s.near_share_by_shape = Outline(coc, x, y, threshold).near_share(rule.along_outline);
+    s.near_share_by_shape = Outline(stated, x, y, threshold).near_share(rule.along_outline);
     return s;
 }
 
@@ -199,14 +200,14 @@ void give_to_lamps(Mixture& m) {
     m.near_colour -= given, m.far_light += given;
 }
 
-Mixture taken_apart(const LitPicture& picture, View<const float> coc, View<const unsigned char> touching,
-                    int x, int y, const UnmixRule& rule) {
+Mixture taken_apart(const LitPicture& picture, View<const float> coc, View<const float> stated,
+                    View<const unsigned char> touching, int x, int y, const UnmixRule& rule) {
     float low = coc(x, y), high = coc(x, y);
     for (int v = std::max(0, y - 1); v <= std::min(coc.height() - 1, y + 1); ++v)
         for (int u = std::max(0, x - 1); u <= std::min(coc.width() - 1, x + 1); ++u)
             low = std::min(low, coc(u, v)), high = std::max(high, coc(u, v));
     const float threshold = 0.5f * (low + high);
-    const Sides s = look_around(picture, coc, touching, x, y, threshold, rule);
+    const Sides s = look_around(picture, coc, stated, touching, x, y, threshold, rule);
     const Guess far = (s.far_clean.empty() ? s.far_mixed : s.far_clean).guess();
     const Guess near = s.near_clean.empty() ? least_like(far.colour, picture, coc, touching, x, y, threshold)
                                             : s.near_clean.guess();
@@ -244,8 +245,15 @@ Rgba composited(std::span<const Hidden> hidden) {
 
 }  // namespace
 
-Mixtures unmix_silhouettes(const LitPicture& picture, View<const float> coc,
-                           View<const unsigned char> connected, Workers& workers, const UnmixRule& rule) {
+Mixtures unmix_silhouettes(const LitPicture& picture, View<const float> stated,
+                           View<const unsigned char> stated_connected, Workers& workers,
+                           const UnmixRule& rule) {
+    const Plane bridged = bridged_strands(picture, stated, stated_connected, workers);
+    const View<const float> coc = bridged.width() > 0 ? View<const float>(bridged) : stated;
+    Image<unsigned char> again;
+    if (bridged.width() > 0) again = connections(coc, workers);
+    const View<const unsigned char> connected =
+        bridged.width() > 0 ? View<const unsigned char>(again) : stated_connected;
     const int width = coc.width(), height = coc.height();
     auto touching = Image<unsigned char>::uninitialised(width, height);
     parallel_for(height, workers, [&](int y) {
@@ -255,9 +263,10 @@ Mixtures unmix_silhouettes(const LitPicture& picture, View<const float> coc,
     });
     Mixtures mixtures{width, height, workers, [&](int y, const auto& emit) {
                           for (int x = 0; x < width; ++x)
-                              if (touching(x, y)) emit(x, taken_apart(picture, coc, touching, x, y, rule));
+                              if (touching(x, y))
+                                  emit(x, taken_apart(picture, coc, stated, touching, x, y, rule));
                       }};
-    unmix_strands(mixtures, picture, coc, workers, rule);
+    unmix_strands(mixtures, picture, stated, workers, rule);
     return mixtures;
 }
 

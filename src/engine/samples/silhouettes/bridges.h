@@ -1,0 +1,18 @@
+// Finds where a strand continues between the pixels whose depth shows it.
+#pragma once
+
+#include "petzval/image.h"
+#include "petzval/workers.h"
+
+#include "engine/samples/hidden.h"
+
+namespace petzval::engine {
+
+// The depth of a pixel is that of its middle, which a strand thinner than a pixel misses for many pixels in a
+// row, while the colour shows it there. Returns the radii with the strand's own in these gaps, or an empty
+// plane if there are none. A gap is followed along the colour, for up to 16 px, and counts only if it leads
+// to another pixel of the same strand: a line of a texture ends elsewhere.
+Plane bridged_strands(const LitPicture& picture, View<const float> coc_px,
+                      View<const unsigned char> connected, Workers& workers);
+
+}  // namespace petzval::engine
