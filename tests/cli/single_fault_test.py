@@ -95,6 +95,14 @@ class SingleFault(CommandLineTest):
     def test_an_allocation(self):
         self.check("malloc", (0, 1))
 
+    def test_an_allocation_of_the_parser_of_a_gltf_file(self):
+        """About 70 allocations in a row are its own: some are among every 25th."""
+        command = next(words for words in RUNS if "in.gltf" in words)
+        self.remove_outputs()
+        before, count, right = self.calls(["--version"])["malloc"], self.calls(command)["malloc"], self.outputs()
+        for call in range(before + 1, count + 1, 25):
+            self.check_call(command, "malloc", call, (0, 1), right)
+
     def test_a_write(self):
         self.check("write", (0, 1, 6))
 

@@ -450,6 +450,8 @@ Status load(const std::string& path, tinygltf::Model& model, std::vector<std::st
     const bool fine = path.ends_with(".glb") ? loader.LoadBinaryFromFile(&model, &wrong, &warning, path)
                                              : loader.LoadASCIIFromFile(&model, &wrong, &warning, path);
     if (failed) return *failed;
+    // tinygltf catches what its JSON parser throws and passes on the words alone.
+    if (!fine && wrong.starts_with(std::bad_alloc().what())) throw std::bad_alloc();
     if (!fine)
         return Error{ErrorCode::InvalidFile, path + ": not a glTF file that can be read" +
                                                  (wrong.empty() ? "" : ": " + first_line(wrong))};
