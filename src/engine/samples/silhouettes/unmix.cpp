@@ -245,28 +245,27 @@ Rgba composited(std::span<const Hidden> hidden) {
 
 }  // namespace
 
-Mixtures unmix_silhouettes(const LitPicture& picture, View<const float> stated,
-                           View<const unsigned char> stated_connected, Workers& workers,
-                           const UnmixRule& rule) {
-    const Plane bridged = bridged_strands(picture, stated, stated_connected, workers);
-    const View<const float> coc = bridged.width() > 0 ? View<const float>(bridged) : stated;
+Mixtures unmix_silhouettes(const LitPicture& picture, View<const float> coc_px,
+                           View<const unsigned char> connected, Workers& workers, const UnmixRule& rule) {
+    const Plane bridged = bridged_strands(picture, coc_px, connected, workers);
+    const View<const float> coc = bridged.width() > 0 ? View<const float>(bridged) : coc_px;
     Image<unsigned char> again;
     if (bridged.width() > 0) again = connections(coc, workers);
-    const View<const unsigned char> connected =
-        bridged.width() > 0 ? View<const unsigned char>(again) : stated_connected;
+    const View<const unsigned char> joined =
+        bridged.width() > 0 ? View<const unsigned char>(again) : connected;
     const int width = coc.width(), height = coc.height();
     auto touching = Image<unsigned char>::uninitialised(width, height);
     parallel_for(height, workers, [&](int y) {
-        find_touching(connected, y, touching);
+        find_touching(joined, y, touching);
         for (int x = 0; x < width; ++x)
             if (touching(x, y) && lit_around(picture, x, y)) touching(x, y) |= kLit;
     });
     Mixtures mixtures{width, height, workers, [&](int y, const auto& emit) {
                           for (int x = 0; x < width; ++x)
                               if (touching(x, y))
-                                  emit(x, taken_apart(picture, coc, stated, touching, x, y, rule));
+                                  emit(x, taken_apart(picture, coc, coc_px, touching, x, y, rule));
                       }};
-    unmix_strands(mixtures, picture, stated, workers, rule);
+    unmix_strands(mixtures, picture, coc_px, workers, rule);
     return mixtures;
 }
 
