@@ -61,8 +61,10 @@ public:
     // its visible part is short compared with the distance. So a light fades as it slips behind an edge.
     // edges: around the hidden pixel.
     Rgba going_on(Place from, Direction outwards, float distance_px, const CutEdges::Around& edges) const;
-    // Edges of the picture that continue between visible pixels and the hidden pixel (x, y).
-    CutEdges::Around edges_around(int x, int y) const { return edges_.around({x, y}); }
+    // Edges of the picture that continue between the hidden pixel (x, y) and visible pixels within within_px.
+    CutEdges::Around edges_around(int x, int y, float within_px = 1e9f) const {
+        return edges_.around({x, y}, within_px);
+    }
 
 private:
     void find_lights(Workers& workers);

@@ -18,10 +18,23 @@ constexpr int kCell = 16;  // pixels on a side
 
 float rise(float value, float from, float to) { return std::clamp((value - from) / (to - from), 0.0f, 1.0f); }
 
+// Light of each clean pixel, without lamps; -1 at silhouettes.
+Plane clean_light(const LitPicture& picture, const Mixtures& mixtures, Workers& workers) {
+    Plane light = Plane::uninitialised(picture.colour.width(), picture.colour.height());
+    parallel_for(light.height(), workers, [&](int y) {
+        float* const row = light.row(y);
+        for (int x = 0; x < light.width(); ++x)
+            row[x] = std::max(0.0f, luminance(comparable(picture.dim(x, y))));
+        mixtures.for_each_in_row(y, [&](int x, const Mixture&) { row[x] = -1; });
+    });
+    return light;
+}
+
 class EdgeFinder {
 public:
-    EdgeFinder(const LitPicture& picture, View<const float> radii, const Mixtures& mixtures, float white)
-        : picture_(picture), radii_(radii), mixtures_(mixtures), dark_(completion_model.edge_dark * white) {}
+    // light: of clean_light(). Borrows both planes.
+    EdgeFinder(View<const float> radii, View<const float> light, float white)
+        : radii_(radii), light_(light), dark_(completion_model.edge_dark * white) {}
 
     // The edge of a surface at coc_px that comes to (x, y), where something nearer begins.
     std::optional<CutEdges::Edge> edge_at(int x, int y, float coc_px) const {
@@ -78,9 +91,6 @@ private:
         const int u = x + nearest_pixel(2 * into_x), v = y + nearest_pixel(2 * into_y);
         return radii_.rect().contains(u, v) && radii_(u, v) <= coc_px - completion_model.step_px;
     }
-    bool clean(int x, int y, float coc_px) const {
-        return std::abs(radii_(x, y) - coc_px) < completion_model.step_px && !mixtures_.at(x, y);
-    }
     // Rows of kSide: light of the surface's clean pixels, -1 of others.
     static constexpr int kSide = 2 * kReach + 3;
     using Lights = std::array<float, std::size_t(kSide) * kSide>;
@@ -89,15 +99,12 @@ private:
         for (int y = pixels.y0; y < pixels.y1; ++y)
             for (int x = pixels.x0; x < pixels.x1; ++x)
                 lights[std::size_t((y - pixels.y0) * kSide + x - pixels.x0)] =
-                    clean(x, y, coc_px) ? light(x, y) : -1;
+                    std::abs(radii_(x, y) - coc_px) < completion_model.step_px ? light_(x, y) : -1;
         return lights;
     }
     float change(float from, float to) const { return (to - from) / (from + to + 2 * dark_); }
-    float light(int x, int y) const { return std::max(0.0f, luminance(comparable(picture_.dim(x, y)))); }
 
-    const LitPicture& picture_;
-    View<const float> radii_;
-    const Mixtures& mixtures_;
+    View<const float> radii_, light_;
     float dark_;
 };
 
@@ -120,8 +127,9 @@ void keep_strongest(std::vector<CutEdges::Edge>& edges) {
 
 CutEdges::CutEdges(const LitPicture& picture, View<const float> radii, const Mixtures& mixtures, float white,
                    float to_px, Workers& workers) {
-    if (white <= 0) return;
-    const EdgeFinder finder(picture, radii, mixtures, white);
+    if (white <= 0 || mixtures.empty()) return;
+    const Plane light = clean_light(picture, mixtures, workers);
+    const EdgeFinder finder(radii, light, white);
     std::vector<std::vector<Edge>> rows(static_cast<std::size_t>(radii.height()));
     parallel_for(radii.height(), workers, [&](int y) {
         for (int x = 0; x < radii.width(); ++x)
@@ -163,15 +171,17 @@ struct OnEdge {
 
 }  // namespace
 
-CutEdges::Around CutEdges::around(Point hidden) const {
+CutEdges::Around CutEdges::around(Point hidden, float within_px) const {
     Around around;
     if (edges_.empty()) return around;
-    const auto& numbers = near_[std::size_t(hidden.y / kCell * columns_ + hidden.x / kCell)];
-    around.near_.reserve(numbers.size());
-    for (const int i : numbers) {
+    for (const int i : near_[std::size_t(hidden.y / kCell * columns_ + hidden.x / kCell)]) {
         const Edge& e = edges_[std::size_t(i)];
         const OnEdge at(e, hidden);
-        around.near_.push_back({&e, at.aside(), at.ahead()});
+        const float aside = at.aside(), ahead = at.ahead();
+        if (std::abs(aside) > within_px || ahead < -completion_model.end_px - within_px ||
+            ahead > completion_model.continues_px + within_px)
+            continue;
+        around.near_.push_back({e, aside, ahead});
     }
     return around;
 }
@@ -180,7 +190,7 @@ float CutEdges::Around::passes(Point shown, float coc_px) const {
     const CompletionModel& model = completion_model;
     float open = 1;
     for (const Near& near : near_) {
-        const Edge& e = *near.edge;
+        const Edge& e = near.edge;
         if (std::abs(e.coc_px - coc_px) > model.apart_px()) continue;
         const OnEdge at(e, shown);
         const float a = near.aside, b = at.aside();

@@ -18,9 +18,9 @@ public:
     struct Point {
         int x, y;
     };
-    // The edges that may continue near a hidden point. Borrows the edges.
+    // The edges that may continue near a hidden point, and stand between it and a colour within within_px.
     class Around;
-    Around around(Point hidden) const;
+    Around around(Point hidden, float within_px = 1e9f) const;
     // Not 0, so that weights remain if all colours lie behind some edge.
     static constexpr float kCut = 1e-3f;
 
@@ -49,7 +49,7 @@ public:
 private:
     friend class CutEdges;
     struct Near {
-        const Edge* edge;
+        Edge edge;
         float aside, ahead;  // of the hidden point: to which side of the edge, and how far along it
     };
     std::vector<Near> near_;
