@@ -131,6 +131,27 @@ TEST(Hidden, AHairOnACoatHasTheCoatBehindIt) {
     }
 }
 
+// Teeth showed along a branch where its step was too small for a silhouette and the next one was far away.
+TEST(Hidden, AHairOnACoatNeedsNoSilhouetteNearby) {
+    constexpr float kHairPx = -1.15f, kCoatPx = -0.4f;
+    constexpr int kHair = 26;  // the hair's column
+    Picture colour(kWidth, kHeight);
+    Plane coc(kWidth, kHeight);
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x)
+            colour(x, y) = grey(x == kHair ? 0.01f : 0.02f), coc(x, y) = x == kHair ? kHairPx : kCoatPx;
+    const Image<unsigned char> connected = connections(coc, one_thread());
+    const LitPicture picture{colour, {}};
+    const Mixtures mixtures = unmix_silhouettes(picture, coc, connected, one_thread());
+    const HiddenLayers hidden =
+        fill_hidden(picture, coc, connected, mixtures, kHairPx, kCoatPx, {}, one_thread());
+    for (int y = 0; y < kHeight; ++y) {
+        ASSERT_EQ(hidden.at(kHair, y).size(), 1) << y;
+        EXPECT_EQ(hidden.at(kHair, y).front().coc_px, kCoatPx) << y;
+        EXPECT_TRUE(hidden.at(kHair + 1, y).empty()) << y;
+    }
+}
+
 // A post between a box and a floor that recedes: the floor counts once, however many radii it shows.
 TEST(Hidden, ASlopingFloorLeavesRoomForTheBoxBesideIt) {
     constexpr int kPost = 16, kFloor = 30;  // columns where they begin

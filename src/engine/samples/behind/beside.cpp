@@ -15,8 +15,10 @@ std::optional<HiddenGuess> surface_beside(const KnownSurfaces& known, View<const
     for (const PixelAt d : kBeside) {
         const int u = x + d.x, v = y + d.y;
         if (!coc.rect().contains(u, v)) continue;
-        const float there = coc(u, v), bend = (there - own) - (own - coc.clamped(x - d.x, y - d.y));
-        if (there <= farthest || bend <= least || !known.shows(u, v, there)) continue;
+        const float there = coc(u, v);
+        if (there <= farthest) continue;
+        const float bend = (there - own) - (own - coc.clamped(x - d.x, y - d.y));
+        if (bend <= least || !known.shows(u, v, there)) continue;
         farthest = there;
         found = HiddenGuess{{known.colour(u, v), there, 1}, {}, 1, 0};
     }

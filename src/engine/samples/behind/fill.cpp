@@ -1,5 +1,6 @@
 #include "base/parallel.h"
 #include "engine/samples/behind/beside.h"
+#include "engine/samples/behind/near_silhouettes.h"
 #include "engine/samples/behind/search.h"
 #include "engine/samples/behind/smooth.h"
 #include "engine/samples/completion_model.h"
@@ -59,12 +60,13 @@ public:
           coc_(coc),
           connected_(connected),
           mixtures_(mixtures),
+          near_silhouettes_(coc, mixtures, workers),
           search_(known_, coc, mixtures, largest, farthest, workers),
           every_(std::size_t(kDirections / rule.directions)),
           every_first_(std::size_t(kDirections / rule.first_directions)) {}
 
     const KnownSurfaces& known() const { return known_; }
-    bool may_hide(int x, int y) const { return search_.may_hide(x, y); }
+    bool may_hide(int x, int y) const { return near_silhouettes_.may_hide(x, y, coc_(x, y)); }
 
     std::optional<HiddenGuess> beside(int x, int y) const { return surface_beside(known_, coc_, x, y); }
     // Appends the surfaces behind (x, y), if a lens ray that passes the occluder reaches any of them.
@@ -271,6 +273,7 @@ private:
     View<const float> coc_;
     View<const unsigned char> connected_;
     const Mixtures& mixtures_;
+    NearSilhouettes near_silhouettes_;
     SurfaceSearch search_;
     // Every how many directions are searched, and are searched first.
     std::size_t every_, every_first_;
@@ -343,9 +346,9 @@ struct Band {
                 // (A silhouette's farther surface hides another one if it lies in front of focus itself.)
                 if (m && m->shows_far && m->far_coc_px > -completion_model.apart_px()) continue;
                 if ((m && !m->shows_far ? m->near_coc_px : coc(x, y)) > rule.hides_before_px) continue;
-                if ((!m || m->shows_far) && !filler.may_hide(x, y)) continue;
-                Range& own = ranges(x, y - rows.y0);
                 const auto beside = m ? std::nullopt : filler.beside(x, y);
+                if (!beside && (!m || m->shows_far) && !filler.may_hide(x, y)) continue;
+                Range& own = ranges(x, y - rows.y0);
                 const Range* const known = beside ? nullptr : answers.find(x, y, coc(x, y));
                 if (known) {
                     own = *known;
@@ -379,7 +382,6 @@ HiddenLayers fill_hidden(const LitPicture& picture, View<const float> coc,
                          float farthest_coc_px, const FillRule& rule, float white, Workers& workers) {
     const int width = coc.width(), height = coc.height();
     HiddenLayers layers;
-    if (mixtures.empty()) return layers;
     const float largest = std::max(std::abs(nearest_coc_px), std::abs(farthest_coc_px));
     const Filler filler(picture, coc, connected, mixtures, largest, farthest_coc_px, rule, white, workers);
     const int bands = (height + kLargestSquare - 1) / kLargestSquare;
@@ -399,6 +401,7 @@ HiddenLayers fill_hidden(const LitPicture& picture, View<const float> coc,
             });
         guesses[std::size_t(i)].assign(band.hidden.begin(), band.hidden.end());  // without spare capacity
     });
+    if (std::all_of(guesses.begin(), guesses.end(), [](const auto& band) { return band.empty(); })) return {};
     if (rule.smooths) smooth(layers.ranges, guesses, filler.known(), workers);
     parallel_for(bands, workers, [&](int i) {
         std::vector<Hidden>& seen = layers.bands[std::size_t(i)];

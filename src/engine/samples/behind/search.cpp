@@ -9,54 +9,33 @@
 
 namespace petzval::engine {
 
-constexpr float kNextPx = 2;  // the mixed pixel of an edge and the next: blur of 1 px still mixes light there
-
 SurfaceSearch::SurfaceSearch(const KnownSurfaces& known, View<const float> coc, const Mixtures& mixtures,
                              float largest_px, float farthest_px, Workers& workers)
     : known_(known), coc_(coc), farthest_(farthest_px) {
-    measure_distances(mixtures, workers);
+    measure_blocks(mixtures, workers);
     lay_paths(std::max(reach_px(largest_px, farthest_px), completion_model.outline_search_px));
 }
 
-bool SurfaceSearch::may_hide(int x, int y) const {
-    return beyond_(x / kBlock, y / kBlock) <= std::abs(coc_(x, y)) + kNextPx;
-}
-
 float SurfaceSearch::reach_px(float own_px, float behind_px) {
-    return std::abs(own_px) + std::abs(behind_px) + kNextPx;
+    return std::abs(own_px) + std::abs(behind_px) + NearSilhouettes::kNextPx;
 }
 
-// Per block of pixels: the smallest distance to a silhouette of a surface in the block, less the blur of
-// the surface behind it. A two-sweep chamfer transform (G. Borgefors, "Distance transformations in
-// digital images", 1986) that does not enter surfaces as far as the surface that it carries. Pixels
-// beyond their own blur need no search.
-void SurfaceSearch::measure_distances(const Mixtures& mixtures, Workers& workers) {
+void SurfaceSearch::measure_blocks(const Mixtures& mixtures, Workers& workers) {
     const int width = (coc_.width() + kBlock - 1) / kBlock, height = (coc_.height() + kBlock - 1) / kBlock;
-    beyond_ = Plane(width, height, 1e9f);
     blocks_ = Image<Block>(width, height);
-    Plane far(width, height, -1e30f), nearest(width, height, 1e30f);
     parallel_for(height, workers, [&](int by) {
-        for (int y = by * kBlock; y < std::min((by + 1) * kBlock, coc_.height()); ++y)
+        for (int y = by * kBlock; y < std::min((by + 1) * kBlock, coc_.height()); ++y) {
             for (int x = 0; x < coc_.width(); ++x) {
-                const int bx = x / kBlock;
-                nearest(bx, by) = std::min(nearest(bx, by), coc_(x, y));
-                Block& block = blocks_(bx, by);
+                Block& block = blocks_(x / kBlock, by);
                 block.farthest = std::max(block.farthest, known_.radii()(x, y));
-                const Mixture* m = mixtures.at(x, y);
-                if (!m) continue;
-                block.free = -kBlock;
-                if (m->far_coc_px > far(bx, by))
-                    beyond_(bx, by) = -std::abs(m->far_coc_px) - 2 * kBlock, far(bx, by) = m->far_coc_px;
             }
+            mixtures.for_each_in_row(y,
+                                     [&](int x, const Mixture&) { blocks_(x / kBlock, by).free = -kBlock; });
+        }
     });
-    constexpr float kSide = 0.955f * kBlock, kDiagonal = 1.3693f * kBlock;
     const auto relax = [&](int x, int y, int dx, int dy) {
-        if (x + dx < 0 || x + dx >= width || y + dy < 0 || y + dy >= height) return;
-        blocks_(x, y).free = std::min(blocks_(x, y).free, blocks_(x + dx, y + dy).free + kBlock);
-        const float reached = beyond_(x + dx, y + dy) + (dx != 0 && dy != 0 ? kDiagonal : kSide);
-        if (reached >= beyond_(x, y) || far(x + dx, y + dy) <= nearest(x, y) + completion_model.step_px)
-            return;
-        beyond_(x, y) = reached, far(x, y) = far(x + dx, y + dy);
+        if (blocks_.rect().contains(x + dx, y + dy))
+            blocks_(x, y).free = std::min(blocks_(x, y).free, blocks_(x + dx, y + dy).free + kBlock);
     };
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)

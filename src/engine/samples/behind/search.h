@@ -1,6 +1,7 @@
 // Walks from hidden pixels to the visible surfaces around them.
 #pragma once
 
+#include "engine/samples/behind/near_silhouettes.h"
 #include "engine/samples/connectivity.h"
 #include "engine/samples/hidden.h"
 #include "engine/samples/known_surfaces.h"
@@ -29,8 +30,6 @@ public:
     SurfaceSearch(const KnownSurfaces& known, View<const float> coc_px, const Mixtures& mixtures,
                   float largest_px, float farthest_px, Workers& workers);
 
-    // True if a lens ray can pass the occluder and reach the surface behind (x, y).
-    bool may_hide(int x, int y) const;
     // Largest distance from a pixel at which a ray past its surface reaches the surface behind it.
     static float reach_px(float own_px, float behind_px);
 
@@ -63,12 +62,11 @@ private:
         float farthest = -1e30f;  // farthest known radius in the block
         int free = 1 << 20;       // from any pixel of the block, this many pixels hold no silhouette
     };
-    void measure_distances(const Mixtures& mixtures, Workers& workers);
+    void measure_blocks(const Mixtures& mixtures, Workers& workers);
     void lay_paths(float longest_px);
 
     const KnownSurfaces& known_;
     View<const float> coc_;
-    Plane beyond_;  // see measure_distances
     Image<Block> blocks_;
     std::array<Path, kDirections> paths_;
     float farthest_;

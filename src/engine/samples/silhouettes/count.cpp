@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kBlock = 8;  // pixels on a side
 
-// The surfaces that a block of pixels hides, coarser than SurfaceSearch::may_hide() finds them.
+// The surfaces that a block of pixels hides, coarser than NearSilhouettes finds them.
 struct Block {
     float nearest = 1e30f;  // its nearest radius
     float far = -1e30f;     // radius of the farthest surface that a lens may see behind it

@@ -1,0 +1,56 @@
+#include "engine/samples/behind/near_silhouettes.h"
+
+#include "base/parallel.h"
+#include "engine/samples/completion_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace petzval::engine {
+
+NearSilhouettes::NearSilhouettes(View<const float> coc, const Mixtures& mixtures, Workers& workers) {
+    const int width = (coc.width() + kBlock - 1) / kBlock, height = (coc.height() + kBlock - 1) / kBlock;
+    blocks_ = Image<Block>(width, height);
+    Plane nearest(width, height, 1e30f);
+    parallel_for(height, workers, [&](int by) {
+        for (int y = by * kBlock; y < std::min((by + 1) * kBlock, coc.height()); ++y) {
+            for (int x = 0; x < coc.width(); ++x)
+                nearest(x / kBlock, by) = std::min(nearest(x / kBlock, by), coc(x, y));
+            // (Two pixels of two blocks may be closer than the blocks by the length of a block's diagonal
+            // and a half.)
+            mixtures.for_each_in_row(y, [&](int x, const Mixture& m) {
+                add(blocks_(x / kBlock, by), {-std::abs(m.far_coc_px) - 2 * kBlock, m.far_coc_px});
+            });
+        }
+    });
+    spread(nearest);
+}
+
+void NearSilhouettes::add(Block& block, const Behind& behind) {
+    if (behind.beyond_px < block[0].beyond_px) block[0] = behind;
+    if (behind.coc_px > block[1].coc_px ||
+        (behind.coc_px == block[1].coc_px && behind.beyond_px < block[1].beyond_px))
+        block[1] = behind;
+}
+
+// A two-sweep chamfer transform (G. Borgefors, "Distance transformations in digital images", 1986) that does
+// not enter surfaces as far as the surface that it carries.
+void NearSilhouettes::spread(const Plane& nearest) {
+    constexpr float kSide = 0.955f * kBlock, kDiagonal = 1.3693f * kBlock;
+    const int width = blocks_.width(), height = blocks_.height();
+    const auto relax = [&](int x, int y, int dx, int dy) {
+        if (x + dx < 0 || x + dx >= width || y + dy < 0 || y + dy >= height) return;
+        const float step = dx != 0 && dy != 0 ? kDiagonal : kSide;
+        for (const Behind& b : blocks_(x + dx, y + dy))
+            if (b.coc_px > nearest(x, y) + completion_model.step_px)
+                add(blocks_(x, y), {b.beyond_px + step, b.coc_px});
+    };
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            relax(x, y, -1, 0), relax(x, y, -1, -1), relax(x, y, 0, -1), relax(x, y, 1, -1);
+    for (int y = height - 1; y >= 0; --y)
+        for (int x = width - 1; x >= 0; --x)
+            relax(x, y, 1, 0), relax(x, y, 1, 1), relax(x, y, 0, 1), relax(x, y, -1, 1);
+}
+
+}  // namespace petzval::engine
