@@ -281,18 +281,18 @@ private:
 
 constexpr int kLargestSquare = HiddenLayers::kBand;
 
-// Hidden surfaces are seen through their own blur and, except their textures, as means (behind/smooth.h), so
-// pixels of one surface share the answer of the first pixel in a square. Returns the side of that square,
-// pixels.
-int shared_square(std::span<const HiddenGuess> hidden, float shared_from_px) {
+// Hidden surfaces are seen through their own blur and, except their textures, as means (behind/smooth.h; not
+// in previews), so pixels of one surface share the answer of the first pixel in a square. Returns the side of
+// that square, pixels.
+int shared_square(std::span<const HiddenGuess> hidden, const FillRule& rule) {
     float least_blur = 1e30f, least_mean_px = 1e30f;
     for (const HiddenGuess& g : hidden) {
-        least_blur = std::min(least_blur, std::abs(g.seen.coc_px) / shared_from_px);
-        least_mean_px = std::min(least_mean_px, g.plain < 1 ? 0 : g.smooth_px);
+        least_blur = std::min(least_blur, std::abs(g.seen.coc_px) / rule.shared_from_px);
+        least_mean_px = std::min(least_mean_px, rule.smooths && g.plain == 1 ? g.smooth_px : 0);
     }
     if (least_blur >= 6) return kLargestSquare;
-    if (least_blur >= 2 || least_mean_px >= 8) return 4;
-    return least_blur >= 1 || least_mean_px >= 4 ? 2 : 1;
+    if (least_blur >= 2 || least_mean_px >= 6) return 4;
+    return least_blur >= 1 || least_mean_px >= 2 ? 2 : 1;
 }
 
 using Range = HiddenLayers::Range;
@@ -363,8 +363,7 @@ struct Band {
                 // Nothing found here; neighbours closer to the silhouette may still find
                 // something.
                 if (own.count == 0) continue;
-                answers.add(x, y, coc(x, y),
-                            shared_square(std::span(hidden).subspan(begin), rule.shared_from_px), own);
+                answers.add(x, y, coc(x, y), shared_square(std::span(hidden).subspan(begin), rule), own);
             }
     }
 };

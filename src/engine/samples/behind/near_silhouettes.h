@@ -1,4 +1,4 @@
-// Which pixels lie so near to a silhouette that a lens looks past it, at a surface behind them.
+// Finds the pixels so near to a silhouette that a lens looks past it, at a surface behind them.
 #pragma once
 
 #include "petzval/workers.h"
@@ -30,8 +30,8 @@ private:
     struct Behind {
         float beyond_px = 1e9f, coc_px = -1e30f;
     };
-    // The surface whose blur comes closest, and the farthest one: surfaces in between hide the first from what
-    // lies behind them, and not the second.
+    // The surface whose blur comes closest, and the farthest one: pixels that lie behind the first may hide
+    // the second.
     using Block = std::array<Behind, 2>;
     static void add(Block& block, const Behind& behind);
     void spread(const Plane& nearest);
