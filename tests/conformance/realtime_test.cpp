@@ -226,6 +226,32 @@ TEST_F(Realtime, WhatAThinThingHidesIsWhatIsBesideIt) {
 }
 
 // Light that is everywhere is not classified as lamps, and is not lost.
+// A wire of two pixels over stripes almost in focus. Its rim pixels have half of its colour and the depth of
+// the stripes.
+Shot wire_over_stripes() {
+    Shot shot = flat(96, 96, {}, -0.2f);
+    const auto stripe = [](int y) { return y / 4 % 2 == 0 ? 0.8f : 0.1f; };
+    for (int y = 0; y < 96; ++y)
+        for (int x = 0; x < 96; ++x) {
+            const float share = x == 48 || x == 49 ? 1 : x == 47 || x == 50 ? 0.5f : 0;
+            const float light = share * 0.4f + (1 - share) * stripe(y);
+            shot.colour(x, y) = {light, light, light, 1};
+            if (share == 1) shot.coc_px(x, y) = -16;
+        }
+    return shot;
+}
+
+TEST_F(Realtime, StripesContinueBehindAWireAndKeepNoneOfItsColour) {
+    const Shot shot = wire_over_stripes();
+    for (Session& session : sessions_) {
+        const Picture made = drawn(session, shot);
+        float apart = 0;
+        for (int y = 40; y < 56; ++y)
+            for (int x = 47; x <= 50; ++x) apart += std::abs(made(x, y).g - made(42, y).g) / (16 * 4);
+        EXPECT_LT(apart, 0.18f);
+    }
+}
+
 TEST_F(Realtime, GlitterKeepsItsLight) {
     Shot shot = flat(128, 96, {}, 9);
     paint_noise(shot.colour, 5);

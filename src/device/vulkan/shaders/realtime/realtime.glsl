@@ -41,3 +41,13 @@ float pixelwise(float radius_px) { return radius_px > 0.5 && radius_px < kWholeP
 // The radius that cells gather over: with the blur of the cells themselves (boxes and tents of two pixels)
 // the disc has the right second moment.
 float gathered_radius(float radius_px) { return sqrt(max(radius_px * radius_px - 4, 1.0)); }
+
+// Weights of the two ends of a line through hidden background, at these distances in pixels. likely: 0 for an end that was not
+// found. Alike and close ends count most.
+vec2 weights_of(vec4 one, vec4 other, vec2 away, vec2 likely) {
+    const float both = likely.x * likely.y, across = away.x + away.y;
+    if (both == 0) return 1e-3 * likely * likely / max(away * away, vec2(1));
+    const vec4 apart = one - other;
+    const float differ = dot(apart, apart) / (dot(one, one) + dot(other, other) + 1e-6);
+    return away.yx * both / (across * across * across * (0.01 + differ));
+}

@@ -51,13 +51,98 @@ void read_window() {
 // Offsets of pixels that a disc reaches.
 int last_offset(float radius_px) { return min(int(ceil(max(radius_px, 0.5) + 0.5)) - 1, kRim); }
 
+// The nearest background in a direction from a pixel: farther than a near surface, and within the window. Nothing bright is
+// assumed to be hidden.
+struct End {
+    vec4 light;
+    float away, likely;  // pixels; 0: none was found
+    float sharp, disc;   // share that is blurred pixel by pixel; signed reach
+};
+End end_of(int own, int along, float step_px, float near_px) {
+    for (int i = 1; i <= kRim; ++i) {
+        const int there = own + i * along;
+        const float there_px = window_discs[there].x, farther = smoothstep(0.8, 0.6, there_px / near_px);
+        if (farther == 0) continue;
+        const vec4 light = window[there];
+        return End(light, float(i) * step_px, farther / (1 + at.exposure * brightness(light)), 1 - blurred_share(abs(there_px)), there_px);
+    }
+    return End(vec4(0), 1, 0, 0, 0);
+}
+// Background behind a near surface of this radius, between the two ends of four lines through a pixel. Ends that are alike
+// and close count most, so edges and textures continue behind a thin surface. A line with one end is a last resort. Beside a
+// lamp, the darker end of a line decides.
+struct Behind {
+    vec4 light;
+    float sharp, disc, area;  // as in End; 0: nothing was found
+};
+Behind behind_at(int own, float near_px) {
+    Behind sum = Behind(vec4(0), 0, 0, 0);
+    [[dont_unroll]] for (int axis = 0; axis < 4; ++axis) {
+        const int along = axis == 0 ? 1 : kAcross + axis - 2;
+        const float step_px = axis == 0 ? distances[0][1] : distances[1][abs(axis - 2)];
+        const End one = end_of(own, along, step_px, near_px), other = end_of(own, -along, step_px, near_px);
+        const vec2 bright = vec2(brightness(one.light), brightness(other.light));
+        vec2 w = weights_of(one.light, other.light, vec2(one.away, other.away), vec2(one.likely, other.likely));
+        if (min(w.x, w.y) > 0) w *= min(vec2(1), 4 * bright.yx / max(bright, vec2(1e-6)));
+        const vec2 w_sharp = w * vec2(one.sharp, other.sharp);
+        sum.light += w.x * one.light + w.y * other.light;
+        sum.disc += dot(w_sharp, vec2(one.disc, other.disc));
+        sum.sharp += w_sharp.x + w_sharp.y;
+        sum.area += w.x + w.y;
+    }
+    if (sum.sharp > 0) sum.disc /= sum.sharp;
+    if (sum.area > 0) sum.light /= sum.area, sum.sharp /= sum.area;
+    return sum;
+}
+// The light of a pixel beside a near surface, without that surface's part of it. The pixel shows some of it although its
+// depth is the background's: at most half.
+vec4 without_near(int own, float radius) {
+    const vec4 light = window[own];
+    if (abs(radius) >= kWholePx) return light;
+    vec4 near = vec4(0);
+    float nearest = 0, area = 0;
+    for (int y = -1; y <= 1; ++y)
+        for (int x = -1; x <= 1; ++x) {
+            const int there = own + y * kAcross + x;
+            const float there_px = window_discs[there].x;
+            if (there_px > -kWholePx) continue;
+            near += window[there], area += 1;
+            nearest = min(nearest, there_px);
+        }
+    if (area == 0) return light;
+    const Behind behind = behind_at(own, nearest);
+    if (behind.area == 0) return light;
+    const vec4 apart = near / area - behind.light;
+    const float share = dot((light - behind.light).rgb, apart.rgb) / max(dot(apart.rgb, apart.rgb), 1e-9);
+    return max(light - clamp(share, 0.0, 0.5) * apart, vec4(0));
+}
+
 struct Fine {
     vec4 back, near;
     float back_area, area;  // of what is behind focus or taken for it, 0: `back` is sharp; of what is in front
 };
-Fine fine(vec4 sharp, float radius, float back_px, float near_px) {
-    Fine sum = Fine(sharp, vec4(0), 0, 0);
+// Removes the near surface from the picture in the window. Returns the signed radius of the surface behind it. All
+// invocations of the group call it together.
+float reveal(int own, float radius) {
+    const vec4 light = without_near(own, radius);
+    barrier();
+    window[own] = light;
+    barrier();
+    Behind behind = Behind(vec4(0), 0, 0, 0);
+    if (radius <= -kWholePx) behind = behind_at(own, radius);
+    barrier();
+    if (behind.sharp > 0) {
+        window[own] = behind.light;
+        window_discs[own] = vec2(behind.disc, behind.sharp * of_each(abs(behind.disc)));
+        radius = behind.disc;
+    }
+    barrier();
+    return radius;
+}
+Fine fine(float radius, float back_px, float near_px, bool has_near) {
     const int own = (int(gl_LocalInvocationID.y) + kRim) * kAcross + int(gl_LocalInvocationID.x) + kRim;
+    if (has_near) radius = reveal(own, radius);
+    Fine sum = Fine(window[own], vec4(0), 0, 0);
     vec4 back = vec4(0);
     float back_area = 0;
     const float opening = reach_of(max(radius, 0.0)), of_opening = of_each(max(radius, 0.0));
@@ -84,22 +169,8 @@ Fine fine(vec4 sharp, float radius, float back_px, float near_px) {
         sum.back = back / back_area;
         sum.back_area = min(back_area, 1.0);
     } else if (radius < 0) {
-        // Background behind a near surface is estimated from its surroundings, from the nearest first, or continues them.
-        vec4 guess = vec4(0);
-        float guess_area = 0;
-        for (int y = -kRim; y <= kRim; ++y)
-            for (int x = -kRim; x <= kRim; ++x) {
-                const int there = own + y * kAcross + x;
-                const float away = distances[abs(y)][abs(x)];
-                if (window_discs[there].x < 0) continue;
-                const float close = 1 / (1 + away * away);
-                const float drawn = (1 - blurred_share(window_discs[there].x)) * close * close * close;
-                const float likely = max(drawn, 1e-3) / (1 + at.exposure * brightness(window[there]));
-                guess += likely * window[there];
-                guess_area += likely;
-                sum.back_area = min(sum.back_area + 3 * drawn, 1.0);
-            }
-        if (guess_area > 0) sum.back = guess / guess_area;
+        const Behind behind = behind_at(own, radius);
+        if (behind.area > 0) sum.back = behind.light, sum.back_area = behind.sharp;
         else if (sum.area > 0) sum.back = sum.near / sum.area;
     }
     // The covered area of a disc, counted pixel by pixel, is right to 4 %.
@@ -149,11 +220,11 @@ void main() {
     const ivec2 tile = 8 * ivec2(gl_WorkGroupID.xy) / kTile;
     const float radius = radius_at(pixel);
     const vec4 reaches = reach[tile.y * at.tiles.x + tile.x];
-    const bool is_fine = max(reaches.y, reaches.z) > 0;
+    const bool has_near = reaches.w < -2, is_fine = max(reaches.y, reaches.z) > (has_near ? 0.0 : 0.5);
     if (is_fine) read_window();
     barrier();
     Fine own = Fine(finite_of(texelFetch(colours, pixel, 0)), vec4(0), 0, 0);
-    if (is_fine) own = fine(own.back, radius, uintBitsToFloat(widest_px[0]), uintBitsToFloat(widest_px[1]));
+    if (is_fine) own = fine(radius, uintBitsToFloat(widest_px[0]), uintBitsToFloat(widest_px[1]), has_near);
     const float hidden = blurred_share(-radius), blurred = blurred_share(abs(radius));
     vec4 near_lamps = vec4(0), back_lamps = vec4(0);
     add_all_lamps(pixel, reaches.x, near_lamps, back_lamps);

@@ -2,6 +2,7 @@
 // radius that reaches its tile.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(binding = 0) uniform sampler2DArray cells;
@@ -12,7 +13,7 @@ layout(binding = 3, rgba16f) writeonly uniform image2DArray gathered;
 
 const int kFarSide = kSets * kMostTaps * kShares;  // from the first weight of a zone
 const float kLeastArea = 1e-4;
-const float kNearestPx = 8;  // where what is hidden is looked for first
+const float kNearestPx = 4;  // where what is hidden is looked for first
 
 int first_tap, taps;  // of the cell's own set, from the first of all; their number
 int first_weight;     // of the cell's zone
@@ -31,12 +32,6 @@ Disc disc_of(vec2 middle, float radius_px) {
     return Disc(middle * texel, 0.5 * radius_px * vec2(1, at.aspect) * texel, max(0.0, log2(0.5 * radius_px * tap_side)));
 }
 vec4 read_cells(Disc disc, vec2 tap, int layer) { return textureLod(cells, vec3(disc.middle + tap * disc.scale, layer), disc.level); }
-
-// Adds a tap's evidence of hidden light. Bright light gets little weight, because nothing bright is assumed to be hidden.
-void guess(vec4 there, float there_area, float weight, inout vec4 light, inout float area) {
-    const float likely = weight / (1 + 0.3 * at.exposure * brightness(there) / there_area);
-    light += likely * there, area += likely * there_area;
-}
 
 // Mean radius of the light in front of focus in a cell, and behind it.
 float near_radius(vec3 near) { return near.y / max(near.z, 1e-7); }
@@ -121,34 +116,56 @@ vec4 back_of(vec2 middle, vec4 own_light, float own_px, vec2 slope, out float ar
     return light;
 }
 
-// Background of a cell completely in front of focus: light behind focus around it, blurred as it is there on average.
-// Where little is visible, the mean of that light and of far less blurred near light; of the nearest of these.
+// The nearest background in a direction from a cell in front of focus: light behind focus, or in front of it and blurred
+// far less. Bright light gets little weight, because nothing bright is assumed to be hidden.
+struct End {
+    vec4 light;
+    float away, likely, back_px, back_area;  // pixels; 0: none was found; sums of the light behind focus
+};
+End end_of(vec2 middle, vec2 way, float own_px, float most_px) {
+    const vec2 texel = 1 / vec2(8 * at.tiles);
+    End end = End(vec4(0), 0, 0, 0, 0);
+    float open = 1;
+    for (float away = min(kNearestPx, most_px); open > 0.05; away *= 1.5) {
+        const vec2 place = (middle + 0.5 * away * way * vec2(1, at.aspect)) * texel;
+        const float level = max(0.0, log2(away / 8));
+        const vec4 back = textureLod(cells, vec3(place, kBack), level), near = textureLod(cells, vec3(place, kNear), level);
+        const float behind = near.x > kLeastArea ? smoothstep(0.6, 0.4, near_radius(near.xyz) / own_px) : 0.0;
+        const float area = back.z + behind * near.w, shows = open * smoothstep(0.5, 1.0, area);
+        if (shows > 0) {
+            vec4 light = vec4(0);
+            if (back.z > kLeastArea) light += textureLod(cells, vec3(place, kBackLight), level) * (back.z / back.x);
+            if (behind > 0) light += textureLod(cells, vec3(place, kNearLight), level) * (behind * near.w / near.x);
+            end.light += shows / area * light;
+            end.away += shows * away;
+            end.likely += shows;
+            end.back_px += shows * back.z * back_radius(back), end.back_area += shows * back.z;
+            open -= shows;
+        }
+        if (away >= 2 * most_px) break;
+    }
+    if (end.likely == 0) return end;
+    end.light /= end.likely, end.away /= end.likely;
+    end.likely /= 1 + 0.3 * at.exposure * brightness(end.light);
+    return end;
+}
+
+// Background of a cell completely in front of focus, from the ends of four lines through it: the mean of ends, those
+// that are alike and close first. Where back light is blurred, it is light gathered over the radius that it has there.
 vec4 hidden_of(vec2 middle, float own_px, float most_px, out float is_known) {
     vec4 light = vec4(0);
     float area = 0, back_area = 0, back_px = 0;
-    for (float radius = min(kNearestPx, most_px);; radius = min(4 * radius, most_px)) {
-        const Disc disc = disc_of(middle, radius);
-        for (int i = 0; i < taps; ++i) {
-            const vec4 tap_at = tap_of(i);
-            const vec2 tap = tap_at.xy;
-            const float w = tap_at.w;
-            const vec4 back = read_cells(disc, tap, kBack);
-            if (back.z > kLeastArea) {
-                guess(read_cells(disc, tap, kBackLight) * (back.z / back.x), back.z, w,
-                      light, area);
-                back_px += w * back.z * back_radius(back);
-                back_area += w * back.z;
-            }
-            const vec4 near = read_cells(disc, tap, kNear);
-            const float behind = near.x > kLeastArea ? w * smoothstep(0.8, 0.6, near_radius(near.xyz) / own_px) : 0.0;
-            if (behind > 0)
-                guess(read_cells(disc, tap, kNearLight) * (near.w / near.x), near.w, behind, light, area);
-        }
-        if (area > 0.05 || radius == most_px) break;
+    [[dont_unroll]] for (int axis = 0; axis < 4; ++axis) {
+        const vec2 way = axis == 0 ? vec2(1, 0) : vec2(axis - 2, 1) * (axis == 2 ? 1.0 : 0.7071);
+        const End one = end_of(middle, way, own_px, most_px), other = end_of(middle, -way, own_px, most_px);
+        const vec2 w = weights_of(one.light, other.light, vec2(one.away, other.away), vec2(one.likely, other.likely));
+        light += w.x * one.light + w.y * other.light, area += w.x + w.y;
+        back_px += dot(w, vec2(one.back_px, other.back_px));
+        back_area += dot(w, vec2(one.back_area, other.back_area));
     }
-    is_known = area > 1e-6 ? 1.0 : 0.0;
-    const vec4 mean = area > 1e-6 ? light / area : vec4(0);
-    const float around_px = back_px / max(back_area, 1e-6), blurred = smoothstep(2.0, 4.0, around_px) * smoothstep(4.0, 12.0, own_px);
+    is_known = area > 0 ? 1.0 : 0.0;
+    const vec4 mean = area > 0 ? light / area : vec4(0);
+    const float around_px = back_px / max(back_area, 1e-9), blurred = smoothstep(2.0, 4.0, around_px) * smoothstep(4.0, 12.0, own_px);
     if (blurred == 0) return mean;
     float seen;
     const vec4 gathered = back_of(middle, mean, around_px, vec2(0), seen);

@@ -4,8 +4,8 @@
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 64) in;
 
-// Largest radius in front of focus; largest radius of pixels blurred pixel by pixel, behind focus and in front of it;
-// the smallest signed radius.
+// Largest radius in front of focus; largest radius of pixels blurred pixel by pixel, behind focus (0.25: in focus) and in
+// front of it; the smallest signed radius.
 layout(std430, binding = 0) readonly buffer Tiles { vec4 tiles[]; };
 layout(std430, binding = 1) writeonly buffer Reach { vec4 reach[]; };  // the same, as it reaches a tile; the last of the tile alone
 layout(std430, binding = 2) readonly buffer Lamps { uvec4 lamps[]; };

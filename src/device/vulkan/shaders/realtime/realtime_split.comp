@@ -128,7 +128,9 @@ void main() {
             lamp += taken;
             lamp_place += brightness(taken) * (vec2(corner) + 0.5);
         }
-        range = max(range, vec4(-radius, pixelwise(radius), pixelwise(-radius), -radius));
+        // A quarter of a pixel marks tiles with light in focus, which `combine` may continue behind near surfaces.
+        const float behind_px = abs(radius) > 0.5 ? pixelwise(radius) : 0.25;
+        range = max(range, vec4(-radius, behind_px, pixelwise(-radius), -radius));
         const float near = 0.25 * blurred_share(-radius), back = 0.25 * smoothstep(-2.5, -2.0, radius);
         near_light += near * light, near_area += near;
         // The brighter light decides the mean radius of a cell with two depths.
