@@ -13,14 +13,18 @@ vec2 surroundings_at(ivec2 pixel) {
 // together.
 const int kWindows = 3;
 shared float around_sums[64][kWindows];
+shared uint least_around;  // as bits: the smallest squared mean of roots of 3 x 3 tiles
 void measure_around() {
     const int own = int(gl_LocalInvocationIndex);
     float sums[kWindows] = float[](0, 0, 0);
+    if (own == 0) least_around = 0x7f7fffffu;
+    barrier();
     for (int i = own; i < 81; i += 64) {
         const ivec2 d = ivec2(i % 9, i / 9) - 4, tile = clamp(ivec2(gl_WorkGroupID.xy) + d, ivec2(0), at.tiles - 1);
-        const float light = surroundings[tile.y * at.tiles.x + tile.x].y;
+        const vec2 found = surroundings[tile.y * at.tiles.x + tile.x];
+        const float light = found.y;
         const int far = max(abs(d.x), abs(d.y));
-        if (far <= 1) sums[0] += light / 9;
+        if (far <= 1) sums[0] += light / 9, atomicMin(least_around, floatBitsToUint(found.x));
         if (far <= 2) sums[1] += light / 25;
         sums[2] += light / 81;
     }
@@ -59,8 +63,9 @@ float radius_of_brightest(ivec2 low, int side, out float most, out float all) {
 // light.
 vec4 lamp_of(ivec2 pixel, vec4 light) {
     const float kStandsOut = 1.0 / 16;
-    const vec2 around = surroundings_at(pixel);
     const float own = brightness(light);
+    if (own <= 4 * uintBitsToFloat(least_around)) return vec4(0);  // most pixels, before any interpolation
+    const vec2 around = surroundings_at(pixel);
     float floor_light = 4 * around.x;
     if (own <= floor_light) return vec4(0);
     float most, all;

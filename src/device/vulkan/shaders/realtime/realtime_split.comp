@@ -79,15 +79,16 @@ float own_radius(ivec2 pixel, vec4 light) {
     vec4 bright = light, dark = light;
     vec2 found = vec2(radius);  // of the brightest nearer pixel around, and of the darkest
     ivec2 to_bright = ivec2(0), to_dark = ivec2(0);
-    // A loop, because nine pixels at once need half as many registers again.
-    [[dont_unroll]] for (int i = 0; i < 9; ++i) {
-        const ivec2 d = ivec2(i % 3, i / 3) - 1, there = clamp(pixel + d, ivec2(0), at.size - 1);
-        const float reaches = radius_of(texelFetch(depths, there, 0).r);
-        if (reaches > radius - kApart) continue;
-        const vec4 colour = light_of(texelFetch(colours, there, 0));
-        if (brightness(colour) > brightness(bright)) bright = colour, found.x = reaches, to_bright = d;
-        if (brightness(colour) < brightness(dark)) dark = colour, found.y = reaches, to_dark = d;
-    }
+    // Loops, because nine pixels at once need half as many registers again.
+    [[dont_unroll]] for (int y = -1; y <= 1; ++y)
+        [[dont_unroll]] for (int x = -1; x <= 1; ++x) {
+            const ivec2 there = clamp(pixel + ivec2(x, y), ivec2(0), at.size - 1);
+            const float reaches = radius_of(texelFetch(depths, there, 0).r);
+            if (reaches > radius - kApart) continue;
+            const vec4 colour = light_of(texelFetch(colours, there, 0));
+            if (brightness(colour) > brightness(bright)) bright = colour, found.x = reaches, to_bright = ivec2(x, y);
+            if (brightness(colour) < brightness(dark)) dark = colour, found.y = reaches, to_dark = ivec2(x, y);
+        }
     const bool is_dark = to_bright == ivec2(0);
     const ivec2 to = is_dark ? to_dark : to_bright;
     if (to == ivec2(0)) return radius;
