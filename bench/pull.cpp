@@ -1,7 +1,8 @@
 // A focus pull through one session, timed: what `./dev bench pull` sets beside as many runs of the program.
 //
-// pull FILE.exr FRAMES LENS ENGINE NEAR_M FAR_M: reads once, makes FRAMES pictures with focus moving evenly
-// in dioptres, writes none. Prints CPU and wall seconds, reading included.
+// pull FILE.exr FRAMES LENS ENGINE NEAR_M FAR_M [turn]: reads once, makes FRAMES pictures with focus moving
+// evenly in dioptres, writes none. With "turn", five blades turn instead, by 72 degrees in all. Prints CPU
+// and wall seconds, reading included.
 #include "petzval/files.h"
 #include "petzval/session.h"
 
@@ -21,7 +22,8 @@ using bench::fail;
 }  // namespace
 
 int main(int count, char** words) {
-    if (count != 7) fail("FILE.exr FRAMES LENS ENGINE NEAR_M FAR_M");
+    if (count != 7 && count != 8) fail("FILE.exr FRAMES LENS ENGINE NEAR_M FAR_M [turn]");
+    const bool turns = count == 8;
     const auto start = std::chrono::steady_clock::now();
     const auto frame = read_frame(words[1]);
     if (!frame) fail(frame.error().message);
@@ -40,9 +42,10 @@ int main(int count, char** words) {
     look.engine = words[4];
     Session session;
     for (int i = 0; i < frames; ++i) {
-        const double share = frames > 1 ? double(i) / (frames - 1) : 0;
+        const double share = frames > 1 ? double(i) / (frames - 1) : 0, moved = turns ? 0 : share;
         rendered.camera = {found.focal_length_mm->value, found.sensor_width_mm->value, found.f_number->value,
-                           1 / ((1 - share) / near_m + share / far_m)};
+                           1 / ((1 - moved) / near_m + moved / far_m)};
+        if (turns) look.lens.aperture.blades = 5, look.lens.aperture.rotation_deg = 72 * share;
         const auto taken = session.take(rendered, look);
         if (!taken) fail(taken.error().message);
     }

@@ -1,11 +1,12 @@
-"""A focus pull of many frames: one session beside as many runs of the program, in one run.
+"""Many frames of one picture: one session beside as many runs of the program, in one run.
 
 Usage: ./dev bench pull [--frames 24] [--width 960] [--lenses doublet,petzval-laikin] [--engines scatter,gather]. The built-in
-night, focus from 2 m to 6 m, evenly in dioptres. CPU seconds are user + system of all processes; runs of the program read and
+night. Focus moves from 2 m to 6 m, evenly in dioptres; then it stays at 2 m while five blades turn. CPU seconds are user + system of all processes; runs of the program read and
 write their frame, the session reads once and writes nothing: the third column is
 what of a run is neither, as its own report says.
 """
 import argparse
+import itertools
 import json
 import pathlib
 import resource
@@ -22,14 +23,16 @@ def children_cpu_s():
     return used.ru_utime + used.ru_stime
 
 
-def one_by_one(picture, frames, lens, engine):
+def one_by_one(picture, frames, lens, engine, change):
     """CPU seconds of all, and wall seconds that the reports give to kernels and computing."""
     begin, computing = children_cpu_s(), 0
     for i in range(frames):
         share = i / (frames - 1)
-        focus_m = 1 / ((1 - share) / NEAR_M + share / FAR_M)
+        moved = share if change == "focus" else 0
+        focus_m = 1 / ((1 - moved) / NEAR_M + moved / FAR_M)
+        blades = ["--blades", "5", "--blade-rotation", str(72 * share)] if change == "blades" else []
         done = subprocess.run([PROGRAM, "defocus", picture, "-o", CACHE / "pull_out.exr", "--lens", lens, "--engine", engine,
-                               "--focus", f"{focus_m}m", "--json", "-", "-q"], check=True,
+                               "--focus", f"{focus_m}m", *blades, "--json", "-", "-q"], check=True,
                               stdout=subprocess.PIPE, text=True)
         seconds = json.loads(done.stdout)["seconds"]
         computing += seconds["kernels"] + seconds["compute"]
@@ -49,16 +52,15 @@ def main():
         subprocess.run([PROGRAM, "scene", "make", "night", "-o", picture, "--width", str(given.width), "--height",
                         str(given.width * 9 // 16), "-q"], check=True)
     rows = []
-    for lens in given.lenses:
-        for engine in given.engines:
-            alone_s, computing_s = one_by_one(picture, given.frames, lens, engine)
-            done = subprocess.run([PULL, picture, str(given.frames), lens, engine, str(NEAR_M), str(FAR_M)], check=True,
-                                  stdout=subprocess.PIPE, text=True)
-            kept = json.loads(done.stdout)
-            rows.append([lens, engine, f"{alone_s:.2f}", f"{computing_s:.2f}", f"{kept['cpu_s']:.2f}",
-                         f"{kept['cpu_s'] / alone_s:.2f}", f"{kept['kept_mib']:.0f}", str(kept["lenses"])])
+    for lens, engine, change in itertools.product(given.lenses, given.engines, ["focus", "blades"]):
+        alone_s, computing_s = one_by_one(picture, given.frames, lens, engine, change)
+        done = subprocess.run([PULL, picture, str(given.frames), lens, engine, str(NEAR_M), str(FAR_M),
+                               *(["turn"] if change == "blades" else [])], check=True, stdout=subprocess.PIPE, text=True)
+        kept = json.loads(done.stdout)
+        rows.append([lens, engine, change, f"{alone_s:.2f}", f"{computing_s:.2f}", f"{kept['cpu_s']:.2f}",
+                     f"{kept['cpu_s'] / alone_s:.2f}", f"{kept['kept_mib']:.0f}", str(kept["lenses"])])
     print(f"{given.frames} frames, night {given.width} px wide, {machine()}\n")
-    print_table(["lens", "engine", "runs, CPU s", "of it computing, wall s", "one session, CPU s", "ratio", "kept MiB", "lenses kept"],
+    print_table(["lens", "engine", "changes", "runs, CPU s", "of it computing, wall s", "one session, CPU s", "ratio", "kept MiB", "lenses kept"],
                 rows)
 
 

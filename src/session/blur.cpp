@@ -53,6 +53,7 @@ Status run_layers(const engine::Engine& chosen, const engine::EngineView& drawn,
         engine::EngineView view = drawn;
         view.samples.colour = colour;
         view.samples.picture = whole, view.samples.is_light = layer.is_light;
+        view.services.surfaces = nullptr;  // within one frame they would be memory that no one expects
         Result<engine::Output> blurred = chosen.run(view, {});
         if (!blurred) return blurred.error();
         output.layers.push_back(taken(*blurred));
@@ -109,6 +110,7 @@ struct Blur {
     const engine::Engine& engine;
     const Radii& radii;
     MountedLens& lens;
+    engine::KeptSurfaces& surfaces;
     const Stopwatch& clock;
     Progress& progress;
     std::size_t beside_bytes = 0;
@@ -163,6 +165,7 @@ Result<Blurred> blurred_by(const NotingDevice& drawing, const Blur& blur, Pictur
     engine::Services& services = whole.services;
     services.device = &drawing;
     services.memory = &blur.lens.kernels;
+    services.surfaces = &blur.surfaces;
     services.progress = &blur.progress;
     services.beside_bytes = blur.beside_bytes;
     const std::unique_ptr<views::PlanView> view = views::plan_view(request.view);
@@ -259,7 +262,8 @@ Result<Blurred> Session::Contents::blur(const FrameRequest& request, const std::
         if (!lens) return lens.error();
     }
     const Rect asked = (region ? region->intersected(data) : data).moved(-window.x0, -window.y0);
-    const Blur blur{on_grid, asked, region.has_value(), **engine, *radii, **lens, clock, progress, beside};
+    const Blur blur{on_grid,  asked, region.has_value(), **engine, *radii, **lens,
+                    surfaces, clock, progress,           beside};
     auto made = blurred_by_either(drawing, settings.device, blur, spare);
     if (made && !edges.what_was_done.empty()) made->report.warnings.push_back(edges.what_was_done);
     trim(most_kept_bytes());

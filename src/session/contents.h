@@ -6,6 +6,7 @@
 #include "base/cancel.h"
 #include "base/ended.h"
 #include "base/parallel.h"
+#include "engine/samples/kept_surfaces.h"
 #include "glare/kept_stars.h"
 #include "session/blurred.h"
 #include "session/mounted_lens.h"
@@ -36,6 +37,7 @@ struct Session::Contents {
     std::mutex opening;                            // of `device`
     std::shared_ptr<const device::Device> device;  // null: not opened yet
     glare::KeptStars stars;                        // with a lock of its own
+    engine::KeptSurfaces surfaces;                 // the same
 
     std::size_t most_kept_bytes() const {
         constexpr std::size_t kUnlimited = std::size_t(1) << 30;
@@ -104,7 +106,8 @@ struct Session::Contents {
         return all;
     }
 
-    // Lenses that hold more than stars and other lenses leave them lose their kernels first, then go.
+    // Lenses that hold more than stars, surfaces and other lenses leave them lose their kernels first, then
+    // go.
     void trim(std::size_t bytes) {
         // Tables of a lens besides its kernels: up to 7 MiB.
         constexpr std::size_t kMostLenses = 8, kTables = std::size_t(6) << 20;
@@ -112,6 +115,8 @@ struct Session::Contents {
         const std::lock_guard lock(mutex);
         stars.trim(bytes);
         std::size_t held = stars.bytes();
+        surfaces.trim(bytes - std::min(bytes, held));
+        held += surfaces.bytes();
         for (auto& [key, lens] : lenses) {
             lens->trim(bytes - std::min(bytes, held));
             held += lens->bytes();
@@ -128,7 +133,7 @@ struct Session::Contents {
         SessionUsage usage;
         for (const auto& [key, lens] : lenses) usage.kept_bytes += lens->bytes();
         for (const auto& rays : rays_of_lenses()) usage.kept_bytes += rays->bytes();
-        usage.kept_bytes += stars.bytes();
+        usage.kept_bytes += stars.bytes() + surfaces.bytes();
         usage.lenses = int(lenses.size());
         return usage;
     }

@@ -158,6 +158,34 @@ TEST(Take, AStarIsKeptFromFrameToFrameAndLightsThemAlike) {
     EXPECT_EQ(session.usage().kept_bytes, 0u);
 }
 
+TEST(Take, SurfacesOfAPictureAreKeptWhileItsLensChanges) {
+    Rendered r;
+    for (int y = 12; y < 36; ++y)
+        for (int x = 24; x < 44; ++x) r.radii(x, y) = -8, r.colour(x, y) = {0.6f, 0.1f, 0.1f, 1};
+    for (const char* engine : {"scatter", "gather", "gaussian"}) {
+        Session session;
+        std::size_t kept = 0;
+        for (const int blades : {0, 5, 6, 7}) {
+            Look look;
+            look.engine = engine, look.lens.aperture.blades = blades;
+            const auto taken = session.take(r.job, look), alone = Session().take(r.job, look);
+            ASSERT_TRUE(taken && alone);
+            EXPECT_TRUE(same(taken->image, alone->image)) << engine << ", blades: " << blades;
+            kept = session.usage().kept_bytes;
+        }
+        // Another picture of the same size has other surfaces.
+        Rendered other;
+        for (int y = 12; y < 36; ++y)
+            for (int x = 4; x < 24; ++x) other.radii(x, y) = -8, other.colour(x, y) = {0.1f, 0.6f, 0.1f, 1};
+        const auto taken = session.take(other.job, {}), alone = Session().take(other.job, {});
+        ASSERT_TRUE(taken && alone);
+        EXPECT_TRUE(same(taken->image, alone->image)) << engine;
+        session.trim(0);
+        EXPECT_GT(kept, 0u);
+        EXPECT_EQ(session.usage().kept_bytes, 0u);
+    }
+}
+
 TEST(Take, RaysOfAnOpenedLensCountAsKeptAndAreGivenBack) {
     Rendered r;
     LensChoice choice;

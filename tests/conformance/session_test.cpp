@@ -129,7 +129,7 @@ PETZVAL_EVERY_DRAWER(EverySession);
 
 void expect_kernels_are_kept(const DefocusJob& job) {
     Session session;
-    ASSERT_TRUE(session.defocus(job));
+    for (int i = 0; i < 2; ++i) ASSERT_TRUE(session.defocus(job));  // surfaces are kept from the second on
     const std::size_t kept = session.usage().kept_bytes;
     EXPECT_GT(kept, 0u);
     ASSERT_TRUE(session.defocus(job));

@@ -271,7 +271,7 @@ private:
     void add_pixel(int x, int y, std::vector<CellLight>& lights) const {
         const std::size_t begin = lights.size();
         engine::for_each_sample(
-            plan_.strip, plan_.surfaces, x, y, [&](Rgba colour, float coc_px, float covered, bool hidden) {
+            plan_.strip, *plan_.surfaces, x, y, [&](Rgba colour, float coc_px, float covered, bool hidden) {
                 plan_.sizes.hand_out(coc_px, hidden, [&](int turn, float share) {
                     if (plan_.sizes.level_of_turn(turn) != 0) return;
                     auto known = std::find_if(lights.begin() + std::ptrdiff_t(begin), lights.end(),

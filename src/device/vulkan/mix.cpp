@@ -61,7 +61,7 @@ public:
         push.first_row = std::uint32_t(pixels.begin);
         push.out_row = std::uint32_t(rows.begin), push.out_rows = std::uint32_t(rows.size());
         push.law = std::uint32_t(plan_.law), push.view = view();
-        push.has_extras = plan_.surfaces.empty() ? 0 : 1;
+        push.has_extras = plan_.surfaces->empty() ? 0 : 1;
         push.near = plan_.near.numbers(), push.far = plan_.far.numbers();
         words_ = recording.uploaded(std::span<const std::uint32_t>(words_of(rows)));
         upload_pixels(pixels, recording);
@@ -127,7 +127,7 @@ private:
         std::size_t cells = 0, columns = 0;
         for (const Blur& blur : plan_.blurs)
             cells += cells_of(blur, rows), columns = std::max(columns, columns_of(blur, rows));
-        const std::size_t extras = plan_.surfaces.empty() ? 0 : sizeof(std::uint32_t) + sizeof(Extra);
+        const std::size_t extras = plan_.surfaces->empty() ? 0 : sizeof(std::uint32_t) + sizeof(Extra);
         return std::size_t(width()) * (std::size_t(pixels_for(rows).size()) * (kOne + extras) +
                                        std::size_t(rows.size()) * sizeof(Rgba)) +
                (cells + std::max(cells, columns)) * kOne;
@@ -178,7 +178,7 @@ private:
             for (int x = 0; x < width(); ++x) {
                 values.push_back(plan_.law == GaussianPlan::Law::ByDepth ? plan_.depth.index(x, y)
                                                                          : plan_.coc_px(x, y));
-                if (plan_.surfaces.empty()) {
+                if (plan_.surfaces->empty()) {
                     colours.push_back(plan_.colour(x, y));
                     continue;
                 }

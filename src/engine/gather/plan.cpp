@@ -107,7 +107,7 @@ GatherPlan plan_gather(const EngineView& strip, const Rect& rows, int first_row,
             strip, strip.options.fill != Fill::Off && strip.options.of<GatherOwn>().gather.fill_hidden);
     for (int level = 0; level < sizes.levels(); ++level) {
         plan.reach.push_back(kernels.reach(level));
-        if (level > 0) plan.levels.emplace_back(strip, plan.surfaces, sizes, level);
+        if (level > 0) plan.levels.emplace_back(strip, *plan.surfaces, sizes, level);
     }
     for (const Rect& tile : tiles) {
         if (tile.intersected(rows).empty()) continue;

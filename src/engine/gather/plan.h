@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -36,7 +37,8 @@ struct GatherPlan {
     int first_row = 0;    // row of the frame that is its row 0
     bool opaque = false;  // alpha is coverage: every pixel of the picture has alpha 1
     RingSizes sizes;
-    FlatSurfaces surfaces;          // of a flat picture
+    // The surfaces of a flat picture; never null.
+    std::shared_ptr<const FlatSurfaces> surfaces = std::make_shared<const FlatSurfaces>();
     std::vector<CellLevel> levels;  // [0] is level 1
     std::vector<int> reach;         // cells by which any kernel of a level reaches
     std::vector<Tile> tiles;

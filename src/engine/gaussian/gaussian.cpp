@@ -30,8 +30,8 @@ std::size_t working_bytes(const GaussianPlan& plan, const EngineView& input) {
     const bool is_layer = !input.samples.picture.empty();
     const std::size_t results = is_layer ? 0 : input.samples.layers.size() * pixels * sizeof(Rgba);
     const std::size_t of_layers =
-        is_layer || results > 0 ? plan.surfaces.bytes_of_layer(pixels) + results : 0;
-    return pixels * (sizeof(Rgba) + layers + largest) + plan.surfaces.bytes() + of_layers +
+        is_layer || results > 0 ? plan.surfaces->bytes_of_layer(pixels) + results : 0;
+    return pixels * (sizeof(Rgba) + layers + largest) + plan.surfaces->bytes() + of_layers +
            std::size_t(input.services.workers->width()) * tiles * kOfCell * kTilePixels;
 }
 

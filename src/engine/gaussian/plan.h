@@ -7,6 +7,7 @@
 #include "engine/waist/engine.h"
 
 #include <algorithm>
+#include <memory>
 #include <vector>
 
 namespace petzval::engine {
@@ -57,7 +58,7 @@ struct GaussianPlan {
     GaussianView view = GaussianView::Result;
     View<const Rgba> colour;
     View<const float> coc_px;
-    FlatSurfaces surfaces;  // Layered
+    std::shared_ptr<const FlatSurfaces> surfaces = std::make_shared<const FlatSurfaces>();  // Layered
     // Layered: near ones from the widest, far ones from the narrowest. ByRadius: from the narrowest.
     std::vector<Blur> blurs;
     BlurStack near, far;  // ByRadius: far for either side
@@ -77,14 +78,14 @@ struct GaussianPlan {
     template <typename Emit>
     void for_each_sample(int x, int y, const Emit& emit) const {
         LayeredSample seen{LayeredSample::Seen, colour(x, y), 1, coc_px(x, y), mix(coc_px(x, y))};
-        if (const Mixture* const m = surfaces.mixtures.at(x, y); m && m->shows_far) {
+        if (const Mixture* const m = surfaces->mixtures.at(x, y); m && m->shows_far) {
             if (FlatSurfaces::shows_near(*m))
                 emit(
                     {LayeredSample::Rim, m->near_colour, m->near_share, m->near_coc_px, mix(m->near_coc_px)});
             seen.light = m->far_colour + m->far_light;
         }
         emit(seen);
-        const Hidden* const behind = surfaces.most_hidden(x, y);
+        const Hidden* const behind = surfaces->most_hidden(x, y);
         if (!behind) return;
         LayeredSample hidden{LayeredSample::Hidden, behind->colour * (1 / behind->share), 1, behind->coc_px,
                              mix(behind->coc_px)};

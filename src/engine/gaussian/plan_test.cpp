@@ -107,7 +107,7 @@ private:
 TEST(GaussianPlan, WhereNothingIsNearNothingIsBlurredForIt) {
     const GaussianPlan plan = Drafts(0, 9).plan(GaussianStyle::Layered);
     EXPECT_EQ(plan.near.count(), 0);
-    EXPECT_TRUE(plan.surfaces.hidden.bands.empty());
+    EXPECT_TRUE(plan.surfaces->hidden.bands.empty());
     EXPECT_EQ(plan.blurs.size(), std::size_t(plan.far.count()));
 }
 

@@ -1,5 +1,6 @@
 #include "engine/lights/highlights.h"
 
+#include "base/content_hash.h"
 #include "base/parallel.h"
 #include "engine/samples/white.h"
 #include "laws/surfaces.h"
@@ -95,6 +96,10 @@ void HighlightSplit::find_contested(View<const float> coc_px, Workers& workers) 
     for (int y = contested_.height() - 1; y >= 0; --y)
         for (int x = contested_.width() - 1; x >= 0; --x)
             relax(x, y, 1, 0), relax(x, y, 1, 1), relax(x, y, 0, 1), relax(x, y, -1, 1);
+}
+
+std::uint64_t HighlightSplit::name() const {
+    return hash_of(surroundings_.pixels(), surroundings_.size() * sizeof(float), 1);
 }
 
 float HighlightSplit::floor_at(int x, int y, float coc_px) const {

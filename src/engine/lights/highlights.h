@@ -71,6 +71,8 @@ public:
     // Up to this luminance, times its coverage, dim() leaves light as it is.
     float least_of_lamps() const { return white_ * rule_.lamp_floor; }
     float white() const { return white_; }
+    // The surroundings of all pixels, as a number: dim() depends on them, white and its rule.
+    std::uint64_t name() const;
     // Light of a surface that base() leaves as it is wherever it is.
     bool is_dim(float brightness, float alpha) const {
         return alpha > kLeastAlpha &&

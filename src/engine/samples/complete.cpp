@@ -1,12 +1,13 @@
 #include "engine/samples/complete.h"
 
 #include "base/parallel.h"
+#include "engine/samples/behind/known_surfaces.h"
 #include "engine/samples/behind/out_of_sight.h"
 #include "engine/samples/behind/plate.h"
 #include "engine/samples/connectivity.h"
 #include "engine/samples/flat_surfaces.h"
 #include "engine/samples/hidden.h"
-#include "engine/samples/known_surfaces.h"
+#include "engine/samples/kept_surfaces.h"
 #include "engine/samples/lamps.h"
 #include "engine/samples/lens_left.h"
 #include "engine/samples/sample_source.h"
@@ -95,24 +96,11 @@ public:
     FlatPicture(const EngineView& input, View<const unsigned char> connected, const Dim& dim,
                 const CocSamples* back = nullptr)
         : input_(input), back_(back) {
-        const LitPicture picture{input.samples.colour, dim};
-        // A draft searches half as much.
-        const bool draft = input.options.quality == Quality::Draft;
-        const UnmixRule unmix = draft ? UnmixRule::draft() : UnmixRule{};
-        FillRule fill = draft ? FillRule::draft() : FillRule{};
-        if (input.options.quality == Quality::Final) fill.first_directions = fill.directions;
-        surfaces_.mixtures =
-            unmix_silhouettes(picture, input.samples.coc_px, connected, *input.services.workers, unmix);
-        if (input.options.fill != Fill::Off)
-            surfaces_.hidden = fill_hidden(picture, input.samples.coc_px, connected, surfaces_.mixtures,
-                                           input.samples.nearest_coc_px, input.samples.farthest_coc_px, fill,
-                                           dim.white, *input.services.workers);
-        unmix_nearer(surfaces_.mixtures, picture, surfaces_.hidden, *input.services.workers);
-        if (back)
-            unmix_before_plate(surfaces_.mixtures, picture, input.samples.coc_px, input.samples.plate,
-                               *input.services.workers);
-        if (dim && !back && input.options.fill == Fill::Full)
-            lamps_ = lamps_behind(picture, input.samples.coc_px, surfaces_.mixtures, *input.services.workers);
+        const auto find = [&] { return found(input, connected, dim, back); };
+        const std::uint64_t rules =
+            1 + 16 * std::uint64_t(input.options.quality) + 256 * std::uint64_t(input.options.fill);
+        found_ = back ? std::make_shared<const FoundSurfaces>(find())
+                      : kept_or_found(input, input.samples.colour, dim, rules, find);
         count();
     }
 
@@ -131,6 +119,28 @@ public:
     }
 
 private:
+    static FoundSurfaces found(const EngineView& input, View<const unsigned char> connected, const Dim& dim,
+                               const CocSamples* back) {
+        const LitPicture picture{input.samples.colour, dim};
+        const View<const float> coc_px = input.samples.coc_px;
+        Workers& workers = *input.services.workers;
+        // A draft searches half as much.
+        const bool draft = input.options.quality == Quality::Draft;
+        const UnmixRule unmix = draft ? UnmixRule::draft() : UnmixRule{};
+        FillRule fill = draft ? FillRule::draft() : FillRule{};
+        if (input.options.quality == Quality::Final) fill.first_directions = fill.directions;
+        FoundSurfaces s;
+        s.flat.mixtures = unmix_silhouettes(picture, coc_px, connected, workers, unmix);
+        if (input.options.fill != Fill::Off)
+            s.flat.hidden =
+                fill_hidden(picture, coc_px, connected, s.flat.mixtures, input.samples.nearest_coc_px,
+                            input.samples.farthest_coc_px, fill, dim.white, workers);
+        unmix_nearer(s.flat.mixtures, picture, s.flat.hidden, workers);
+        if (back) unmix_before_plate(s.flat.mixtures, picture, coc_px, input.samples.plate, workers);
+        if (dim && !back && input.options.fill == Fill::Full)
+            s.lamps = lamps_behind(picture, coc_px, s.flat.mixtures, workers);
+        return s;
+    }
     // Counts the samples before each row, so that rows can be written in parallel.
     void count() {
         const auto height = std::size_t(input_.height());
@@ -150,14 +160,15 @@ private:
     // begin(x) for every pixel, then emit(sample) for each of its samples, nearest first.
     template <typename Begin, typename Emit>
     void visit_row(int y, const Begin& begin, const Emit& emit) const {
-        auto lamp = lamps_.row(y).begin();
+        const auto lamps = found_->lamps.row(y);
+        auto lamp = lamps.begin();
         for (int x = 0; x < input_.width(); ++x) {
             begin(x);
             const auto emit_before_plate = [&](const CocSample& s) {
                 if (!back_ || is_before_plate(s.coc_px, input_.samples.plate.coc_px(x, y))) emit(s);
             };
             visit_surfaces(x, y, emit_before_plate);
-            if (lamp != lamps_.row(y).end() && lamp->x == x)
+            if (lamp != lamps.end() && lamp->x == x)
                 emit_before_plate({lamp->light, lamp->coc_px, lamp->coc_px}), ++lamp;
             if (back_)
                 for (const CocSample& s : CocSamplesView(*back_).at(x, y)) emit(s);
@@ -167,14 +178,13 @@ private:
     void visit_surfaces(int x, int y, const Emit& emit) const {
         const View<const Rgba> colour = input_.samples.colour;
         // The plate shows through the uncovered part of the picture.
-        surfaces_.visit(colour, input_.samples.coc_px, x, y, back_ ? colour(x, y).a : 1,
-                        [&](Rgba c, float coc_px, float share) { emit(sample(c, coc_px, share)); });
+        found_->flat.visit(colour, input_.samples.coc_px, x, y, back_ ? colour(x, y).a : 1,
+                           [&](Rgba c, float coc_px, float share) { emit(sample(c, coc_px, share)); });
     }
 
     const EngineView& input_;
     const CocSamples* back_;
-    FlatSurfaces surfaces_;
-    HiddenLamps lamps_;
+    std::shared_ptr<const FoundSurfaces> found_;
     // Number of the first sample of each row, then the number of all.
     std::vector<std::size_t> first_of_row_;
 };

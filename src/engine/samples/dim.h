@@ -2,6 +2,7 @@
 
 #include "petzval/image.h"
 
+#include <cstdint>
 #include <functional>
 
 namespace petzval::engine {
@@ -12,7 +13,8 @@ struct Dim {
     std::function<Rgba(int x, int y, Rgba light)> of;
     // Light of luminance up to least * its coverage is unchanged: a quick test that most pixels pass.
     float least = 0;
-    float white = 0;  // scene-linear luminance from which light counts as bright; 0: no light does
+    float white = 0;         // scene-linear luminance from which light counts as bright; 0: no light does
+    std::uint64_t name = 0;  // functions that differ in more than the two numbers have different names
 
     explicit operator bool() const { return bool(of); }
     Rgba operator()(int x, int y, Rgba light) const {

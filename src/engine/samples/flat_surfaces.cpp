@@ -1,8 +1,9 @@
 #include "engine/samples/flat_surfaces.h"
 
 #include "base/parallel.h"
+#include "engine/samples/behind/known_surfaces.h"
 #include "engine/samples/connectivity.h"
-#include "engine/samples/known_surfaces.h"
+#include "engine/samples/kept_surfaces.h"
 #include "engine/samples/layer_shares.h"
 #include "engine/samples/outlines/hidden_outlines.h"
 #include "engine/samples/white.h"
@@ -25,11 +26,9 @@ Dim without_lamps(float white) {
     return {reduced, least, white};
 }
 
-FlatSurfaces surfaces_of(const EngineView& input, View<const Rgba> colour, bool fills) {
+FlatSurfaces surfaces_of(const EngineView& input, const LitPicture& picture, float white, bool fills) {
     const Samples& samples = input.samples;
     Workers& workers = *input.services.workers;
-    const float white = white_of(input.all().samples.judged(), workers);
-    const LitPicture picture{colour, white > 0 ? without_lamps(white) : Dim{}};
     const Image<unsigned char> connected = connections(samples.coc_px, workers);
     const FillRule rule = FillRule::preview();
     FlatSurfaces found;
@@ -93,10 +92,20 @@ std::size_t FlatSurfaces::bytes() const {
     return bytes;
 }
 
-FlatSurfaces preview_surfaces(const EngineView& input, bool fills) {
-    FlatSurfaces found = surfaces_of(input, input.samples.judged(), fills);
-    if (!input.samples.picture.empty()) take_light_of_layer(input, found);
-    return found;
+std::shared_ptr<const FlatSurfaces> preview_surfaces(const EngineView& input, bool fills) {
+    const View<const Rgba> colour = input.samples.judged();
+    const float white = white_of(input.all().samples.judged(), *input.services.workers);
+    const Dim dim = white > 0 ? without_lamps(white) : Dim{};
+    const auto find = [&] { return surfaces_of(input, {colour, dim}, white, fills); };
+    if (!input.samples.picture.empty()) {
+        auto of_layer = std::make_shared<FlatSurfaces>(find());
+        take_light_of_layer(input, *of_layer);
+        return of_layer;
+    }
+    const auto found = kept_or_found(input, colour, dim, fills ? 2 : 3, [&] {
+        return FoundSurfaces{find(), {}};
+    });
+    return {found, &found->flat};
 }
 
 int preview_reach_px(const EngineView& input) {

@@ -5,6 +5,7 @@
 #include "engine/waist/engine.h"
 
 #include <cstddef>
+#include <memory>
 
 namespace petzval::engine {
 
@@ -65,7 +66,7 @@ private:
 // (FillRule::preview). Nothing is estimated behind surfaces in focus or beyond it: rings of kernels mix the
 // light of near radii, so it would shine through them. If input.samples.colour is a layer: its part of the
 // picture's surfaces. fills: false estimates nothing.
-FlatSurfaces preview_surfaces(const EngineView& input, bool fills);
+std::shared_ptr<const FlatSurfaces> preview_surfaces(const EngineView& input, bool fills);
 
 // Rows around a row that may change its surfaces.
 int preview_reach_px(const EngineView& input);

@@ -31,41 +31,41 @@ struct Wire {
         input.samples.nearest_coc_px = -12, input.samples.farthest_coc_px = 0;
         input.services.workers = &one_thread();
     }
-    FlatSurfaces surfaces() const { return preview_surfaces(input, true); }
+    std::shared_ptr<const FlatSurfaces> surfaces() const { return preview_surfaces(input, true); }
 };
 
 TEST(PreviewSurfaces, ContinueWhatAWireHides) {
     const auto stripes = [](int, int y) { return y / 6 % 2 == 0 ? 0.8f : 0.2f; };
-    const FlatSurfaces found = Wire(stripes).surfaces();
+    const auto found = Wire(stripes).surfaces();
     double error = 0;
     for (int y = 16; y < 48; ++y)
         for (int x = kBegin; x < kEnd; ++x) {
-            const Hidden* const hidden = found.most_hidden(x, y);
+            const Hidden* const hidden = found->most_hidden(x, y);
             ASSERT_NE(hidden, nullptr) << x << ", " << y;
             EXPECT_EQ(hidden->coc_px, 0);
             error += std::abs(double(hidden->colour.r) - double(stripes(x, y)));
         }
     EXPECT_LT(error / (32 * (kEnd - kBegin)), 0.2) << "the mean of the stripes is 0.3 from either";
-    EXPECT_EQ(found.most_hidden(kBegin - 2, 20), nullptr);
+    EXPECT_EQ(found->most_hidden(kBegin - 2, 20), nullptr);
 }
 
 TEST(PreviewSurfaces, AreNotEstimatedBehindWhatIsInFocusNorWhereNobodyAsks) {
     Wire wire([](int, int) { return 0.5f; });
-    EXPECT_FALSE(wire.surfaces().hidden.ranges.empty());
-    EXPECT_TRUE(preview_surfaces(wire.input, false).hidden.ranges.empty());
+    EXPECT_FALSE(wire.surfaces()->hidden.ranges.empty());
+    EXPECT_TRUE(preview_surfaces(wire.input, false)->hidden.ranges.empty());
     for (int y = 0; y < kSize; ++y)
         for (int x = 0; x < kSize; ++x) wire.coc_px(x, y) = wire.coc_px(x, y) < 0 ? -0.5f : 12;
     wire.input.samples.nearest_coc_px = -0.5f, wire.input.samples.farthest_coc_px = 12;
-    EXPECT_EQ(wire.surfaces().most_hidden(32, 32), nullptr);
+    EXPECT_EQ(wire.surfaces()->most_hidden(32, 32), nullptr);
 }
 
 // The light of a pixel is what it shows of its surfaces.
 TEST(PreviewSurfaces, OfAPixelSumToItsLight) {
     const Wire wire([](int x, int y) { return 0.3f + 0.2f * float((x + y) % 5); });
-    const FlatSurfaces found = wire.surfaces();
+    const auto found = wire.surfaces();
     for (int y = 0; y < kSize; ++y)
         for (int x = 0; x < kSize; ++x) {
-            const Mixture* const m = found.mixtures.at(x, y);
+            const Mixture* const m = found->mixtures.at(x, y);
             if (!m || !m->shows_far) continue;
             EXPECT_NEAR(m->near_colour.g + (1 - m->near_share) * m->far_colour.g, wire.colour(x, y).g, 1e-4f)
                 << x << ", " << y;
@@ -74,7 +74,7 @@ TEST(PreviewSurfaces, OfAPixelSumToItsLight) {
 
 TEST(PreviewSurfaces, OfLayersSumToThoseOfThePicture) {
     const Wire wire([](int x, int y) { return 0.3f + 0.2f * float((x / 3 + y) % 5); });
-    const FlatSurfaces whole = wire.surfaces();
+    const auto whole = wire.surfaces();
     Picture key(kSize, kSize), fill(kSize, kSize);
     for (int y = 0; y < kSize; ++y)
         for (int x = 0; x < kSize; ++x) {
@@ -87,15 +87,15 @@ TEST(PreviewSurfaces, OfLayersSumToThoseOfThePicture) {
         view.samples.picture = wire.colour, view.samples.colour = layer;
         return preview_surfaces(view, true);
     };
-    const FlatSurfaces a = of_layer(key), b = of_layer(fill);
+    const auto a = of_layer(key), b = of_layer(fill);
     for (int y = 0; y < kSize; ++y)
         for (int x = 0; x < kSize; ++x) {
-            if (const Hidden* const hidden = whole.most_hidden(x, y)) {
-                EXPECT_NEAR(a.most_hidden(x, y)->colour.g + b.most_hidden(x, y)->colour.g, hidden->colour.g,
+            if (const Hidden* const hidden = whole->most_hidden(x, y)) {
+                EXPECT_NEAR(a->most_hidden(x, y)->colour.g + b->most_hidden(x, y)->colour.g, hidden->colour.g,
                             1e-5f);
             }
-            if (const Mixture* const m = whole.mixtures.at(x, y)) {
-                EXPECT_NEAR(a.mixtures.at(x, y)->near_colour.g + b.mixtures.at(x, y)->near_colour.g,
+            if (const Mixture* const m = whole->mixtures.at(x, y)) {
+                EXPECT_NEAR(a->mixtures.at(x, y)->near_colour.g + b->mixtures.at(x, y)->near_colour.g,
                             m->near_colour.g, 1e-5f);
             }
         }
@@ -121,12 +121,12 @@ TEST(PreviewSurfaces, OfALampInFocusHaveTheLightAroundIt) {
             colour(x, y) = inside ? light : wall + 0.1f * (light - wall);
             if (inside) coc_px(x, y) = 0;
         }
-    const FlatSurfaces found = preview_surfaces(view_of(colour, coc_px, 0, 8), true);
+    const auto found = preview_surfaces(view_of(colour, coc_px, 0, 8), true);
     for (int y = 0; y < 24; ++y)
         for (int x = 0; x < 24; ++x) {
             float blurred = 0;  // light that a disc spreads
-            found.visit(colour, coc_px, x, y, 1,
-                        [&](Rgba c, float radius, float) { blurred += radius > 1 ? c.r : 0; });
+            found->visit(colour, coc_px, x, y, 1,
+                         [&](Rgba c, float radius, float) { blurred += radius > 1 ? c.r : 0; });
             if (coc_px(x, y) > 1) {
                 EXPECT_NEAR(blurred, wall.r, 0.02f * light.r) << x << ", " << y;
             }
@@ -143,9 +143,9 @@ TEST(PreviewSurfaces, OfABlurredWireHaveItsColourBesideIt) {
         for (int x = 10; x < 13; ++x) colour(x, y) = wire, coc_px(x, y) = -12;
         for (const int x : {9, 13}) colour(x, y) = wall + 0.25f * (wire - wall);
     }
-    const FlatSurfaces found = preview_surfaces(view_of(colour, coc_px, -12, 0), true);
+    const auto found = preview_surfaces(view_of(colour, coc_px, -12, 0), true);
     for (const int x : {9, 13}) {
-        const Mixture* const m = found.mixtures.at(x, 12);
+        const Mixture* const m = found->mixtures.at(x, 12);
         ASSERT_NE(m, nullptr) << x;
         EXPECT_NEAR(m->near_share, 0.25f, 0.05f);
         EXPECT_EQ(m->near_coc_px, -12);

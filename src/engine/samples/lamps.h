@@ -24,6 +24,11 @@ struct HiddenLamps {
     std::span<const HiddenLamp> row(int y) const {
         return rows.empty() ? std::span<const HiddenLamp>{} : rows[std::size_t(y)];
     }
+    std::size_t bytes() const {
+        std::size_t bytes = rows.size() * sizeof(std::vector<HiddenLamp>);
+        for (const auto& row : rows) bytes += row.size() * sizeof(HiddenLamp);
+        return bytes;
+    }
 };
 
 // Upper limit of lit_widest_px: lamps are searched no farther from the edge that cuts them.

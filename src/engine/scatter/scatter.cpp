@@ -188,7 +188,7 @@ private:
         strip.completed = std::make_shared<CompletedPicture>(
             input, strip.connected,
             Dim{[&](int x, int y, Rgba light) { return split_.dim(x, first_row + y, light); },
-                split_.least_of_lamps(), split_.white()});
+                split_.least_of_lamps(), split_.white(), split_.name() + std::uint64_t(first_row)});
         strip.sample_bytes = strip.completed->sample_count() * sizeof(CocSample) +
                              std::size_t(input.width()) * std::size_t(input.height()) * sizeof(std::size_t);
         watch_.lap("complete",

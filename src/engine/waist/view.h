@@ -84,10 +84,12 @@ struct SeenWindow {
     const EngineView* whole = nullptr;
 };
 
+class KeptSurfaces;  // engine/samples/kept_surfaces.h
 struct Services {
     const device::Device* device = nullptr;  // what draws; never null
     // Memory that may outlive this frame, for this lens, size and quality; never null.
     device::Memory* memory = nullptr;
+    KeptSurfaces* surfaces = nullptr;  // of the pictures of earlier frames; null: none are kept
     Workers* workers = &one_thread();  // never null
     Progress* progress = nullptr;      // never null
     std::size_t max_memory_bytes = 0;

@@ -1,8 +1,8 @@
 // The surface beside a pixel, where it lies a little farther.
 #pragma once
 
+#include "engine/samples/behind/known_surfaces.h"
 #include "engine/samples/behind/smooth.h"
-#include "engine/samples/known_surfaces.h"
 
 #include <optional>
 

@@ -1,9 +1,9 @@
 #include "engine/samples/behind/near_silhouettes.h"
 
 #include "base/parallel.h"
+#include "engine/samples/behind/known_surfaces.h"
 #include "engine/samples/behind/search.h"
 #include "engine/samples/connectivity.h"
-#include "engine/samples/known_surfaces.h"
 
 #include <cmath>
 #include <random>

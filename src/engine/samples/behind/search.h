@@ -1,10 +1,10 @@
 // Walks from hidden pixels to the visible surfaces around them.
 #pragma once
 
+#include "engine/samples/behind/known_surfaces.h"
 #include "engine/samples/behind/near_silhouettes.h"
 #include "engine/samples/connectivity.h"
 #include "engine/samples/hidden.h"
-#include "engine/samples/known_surfaces.h"
 
 #include <array>
 #include <vector>

@@ -1,7 +1,7 @@
 #include "engine/samples/behind/smooth.h"
 
 #include "base/parallel.h"
-#include "engine/samples/known_surfaces.h"
+#include "engine/samples/behind/known_surfaces.h"
 
 #include <algorithm>
 #include <array>

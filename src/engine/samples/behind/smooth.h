@@ -3,8 +3,8 @@
 
 #include "petzval/workers.h"
 
+#include "engine/samples/behind/known_surfaces.h"
 #include "engine/samples/hidden.h"
-#include "engine/samples/known_surfaces.h"
 
 #include <vector>
 

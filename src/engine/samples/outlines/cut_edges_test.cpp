@@ -2,7 +2,7 @@
 #include "engine/samples/outlines/cut_edges.h"
 
 #include "base/parallel.h"
-#include "engine/samples/known_surfaces.h"
+#include "engine/samples/behind/known_surfaces.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 #include "engine/samples/outlines/hidden_outlines.h"
 
 #include "base/parallel.h"
+#include "engine/samples/behind/known_surfaces.h"
 #include "engine/samples/completion_model.h"
-#include "engine/samples/known_surfaces.h"
 #include "engine/samples/nearest_pixel.h"
 
 #include <algorithm>

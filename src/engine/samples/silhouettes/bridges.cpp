@@ -1,7 +1,7 @@
 #include "engine/samples/silhouettes/bridges.h"
 
 #include "base/parallel.h"
-#include "engine/samples/known_surfaces.h"
+#include "engine/samples/behind/known_surfaces.h"
 #include "engine/samples/nearest_pixel.h"
 #include "engine/samples/silhouettes/two_surfaces.h"
 

@@ -1,7 +1,7 @@
 #include "base/parallel.h"
+#include "engine/samples/behind/known_surfaces.h"
 #include "engine/samples/completion_model.h"
 #include "engine/samples/hidden.h"
-#include "engine/samples/known_surfaces.h"
 #include "engine/samples/outlines/outline.h"
 #include "engine/samples/silhouettes/bridges.h"
 #include "engine/samples/silhouettes/strands.h"

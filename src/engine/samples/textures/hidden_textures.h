@@ -5,8 +5,8 @@
 // another, continues as any other piece of itself.
 #pragma once
 
+#include "engine/samples/behind/known_surfaces.h"
 #include "engine/samples/completion_model.h"
-#include "engine/samples/known_surfaces.h"
 #include "engine/samples/textures/repeats.h"
 
 #include <array>

@@ -1,5 +1,5 @@
 // A lit sign on a dark wall, cut by the edge of something that begins at column 140.
-#include "engine/samples/known_surfaces.h"
+#include "engine/samples/behind/known_surfaces.h"
 
 #include "base/parallel.h"
 

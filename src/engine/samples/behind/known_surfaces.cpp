@@ -1,4 +1,4 @@
-#include "engine/samples/known_surfaces.h"
+#include "engine/samples/behind/known_surfaces.h"
 
 #include "base/parallel.h"
 #include "engine/samples/completion_model.h"
