@@ -94,7 +94,8 @@ class Plugin(unittest.TestCase):
         self.command(PETZVAL, "defocus", "sharp.png", "--depth", "night.exr", *CAMERA, "--focus", "4.8m", "-o", "line.exr", "--overwrite")
         self.render("host.exr", {**PARAMS, "focusDistance": 4.8, "transfer": "srgb"}, "--clip", f"Source={source}", *self.CLIPS[2:])
         report = json.loads(self.command(PETZVAL, "compare", codes_of("line"), "host.exr", "--json", "-").stdout)
-        self.assertLess(report["max_error"], 3e-3, report)  # the files of codes are of half floats
+        # The files of codes are of half floats: where colours tie, one pixel's edge may be found otherwise.
+        self.assertGreater(report["psnr_lin"], 60, report)  # 33.5 where codes are taken for light
         self.render("taken.exr", {**PARAMS, "focusDistance": 4.8}, "--clip", f"Source={source}", *self.CLIPS[2:])
         report = json.loads(self.command(PETZVAL, "compare", "taken.exr", "host.exr", "--json", "-").stdout)
         self.assertGreater(report["max_error"], 0.05, "codes taken for light look different")
