@@ -4,14 +4,12 @@
 #include "petzval/glare.h"
 #include "petzval/workers.h"
 
+#include "base/kept.h"
 #include "device/device.h"
 #include "glare/filter.h"
 
 #include <cstddef>
-#include <list>
 #include <memory>
-#include <mutex>
-#include <utility>
 
 namespace petzval::glare {
 
@@ -25,20 +23,18 @@ struct StarShape {
     bool operator==(const StarShape&) const = default;
 };
 
-// Star kernels kept between frames. Any number of threads may use it; no picture depends on its contents.
+// Star kernels kept between frames. Any number of threads may use it at once.
 class KeptStars {
 public:
     // The star for pictures of this size: that of a frame before, or a new one. radius_px and diffraction_px:
     // star_kernel().
     std::shared_ptr<const Filter> star(const ApertureShape& aperture, double radius_px, double diffraction_px,
                                        double pixel_aspect, int width, int height, Workers& workers);
-    std::size_t bytes() const;
-    // Lets go of those not used longest, until at most so many bytes are kept.
-    void trim(std::size_t max_bytes);
+    std::size_t bytes() const { return stars_.bytes(); }
+    void trim(std::size_t max_bytes) { stars_.trim(max_bytes); }
 
 private:
-    mutable std::mutex mutex_;
-    std::list<std::pair<StarShape, std::shared_ptr<const Filter>>> stars_;  // the last used first
+    Kept<StarShape, Filter> stars_;
 };
 
 // petzval::add_glare() with the stars of earlier frames, on this device, which can do it

@@ -3,6 +3,7 @@
 #include "base/content_hash.h"
 #include "base/parallel.h"
 #include "engine/samples/white.h"
+#include "image/two_sweeps.h"
 #include "laws/surfaces.h"
 
 #include <algorithm>
@@ -74,7 +75,7 @@ HighlightSplit::HighlightSplit(const EngineView& input, const HighlightRule& rul
 }
 
 // A surface at radius n, d pixels away, stands in the way of radius c if c - n > d: c > min(n + d) over all
-// surfaces, which is a distance transform (two-sweep chamfer, G. Borgefors 1986) of the blocks' nearest
+// surfaces, which is a distance transform of the blocks' nearest
 // radii.
 void HighlightSplit::find_contested(View<const float> coc_px, Workers& workers) {
     contested_ =
@@ -85,17 +86,10 @@ void HighlightSplit::find_contested(View<const float> coc_px, Workers& workers) 
                 contested_(x / kBlock, by) =
                     std::min(contested_(x / kBlock, by), coc_px(x, y) + laws::kHidesLittlePx);
     });
-    const auto relax = [&](int x, int y, int dx, int dy) {
-        if (!contested_.rect().contains(x + dx, y + dy)) return;
-        const float step = (dx != 0 && dy != 0 ? 1.3693f : 0.955f) * kBlock;
+    two_sweeps(contested_.width(), contested_.height(), [&](int x, int y, int dx, int dy) {
+        const float step = chamfer_step(dx, dy) * kBlock;
         contested_(x, y) = std::min(contested_(x, y), contested_(x + dx, y + dy) + step);
-    };
-    for (int y = 0; y < contested_.height(); ++y)
-        for (int x = 0; x < contested_.width(); ++x)
-            relax(x, y, -1, 0), relax(x, y, -1, -1), relax(x, y, 0, -1), relax(x, y, 1, -1);
-    for (int y = contested_.height() - 1; y >= 0; --y)
-        for (int x = contested_.width() - 1; x >= 0; --x)
-            relax(x, y, 1, 0), relax(x, y, 1, 1), relax(x, y, 0, 1), relax(x, y, -1, 1);
+    });
 }
 
 std::uint64_t HighlightSplit::name() const {

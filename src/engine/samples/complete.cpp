@@ -11,6 +11,7 @@
 #include "engine/samples/lamps.h"
 #include "engine/samples/lens_left.h"
 #include "engine/samples/sample_source.h"
+#include "image/two_sweeps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,18 +43,12 @@ void restart(CocSamples& samples, int width, int height, std::size_t count) {
 Image<int> distance_to_emptiness(View<const Rgba> picture) {
     constexpr int kFar = 1 << 20;
     Image<int> distance(picture.width(), picture.height(), kFar);
-    const auto step = [&](int x, int y, int dx, int dy) {
-        if (!distance.rect().contains(x + dx, y + dy)) return;
-        distance(x, y) = std::min(distance(x, y), distance(x + dx, y + dy) + 1);
-    };
     for (int y = 0; y < picture.height(); ++y)
-        for (int x = 0; x < picture.width(); ++x) {
+        for (int x = 0; x < picture.width(); ++x)
             if (picture(x, y).a <= 1 - kLeastShare) distance(x, y) = 0;
-            step(x, y, -1, 0), step(x, y, -1, -1), step(x, y, 0, -1), step(x, y, 1, -1);
-        }
-    for (int y = picture.height() - 1; y >= 0; --y)
-        for (int x = picture.width() - 1; x >= 0; --x)
-            step(x, y, 1, 0), step(x, y, 1, 1), step(x, y, 0, 1), step(x, y, -1, 1);
+    two_sweeps(picture.width(), picture.height(), [&](int x, int y, int dx, int dy) {
+        distance(x, y) = std::min(distance(x, y), distance(x + dx, y + dy) + 1);
+    });
     return distance;
 }
 

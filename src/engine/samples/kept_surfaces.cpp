@@ -25,34 +25,6 @@ std::uint64_t hash_of_pixels(View<const Pixel> pixels, int every_row, std::uint6
 
 }  // namespace
 
-std::size_t KeptSurfaces::bytes() const {
-    const std::lock_guard lock(mutex_);
-    std::size_t sum = 0;
-    for (const auto& [name, found] : kept_) sum += found->bytes();
-    return sum;
-}
-
-void KeptSurfaces::trim(std::size_t max_bytes) {
-    const std::lock_guard lock(mutex_);
-    std::size_t sum = 0;
-    std::erase_if(kept_, [&](const auto& k) { return (sum += k.second->bytes()) > max_bytes; });
-}
-
-KeptSurfaces::Found KeptSurfaces::look_up(std::uint64_t name) {
-    const std::lock_guard lock(mutex_);
-    const auto known =
-        std::find_if(kept_.begin(), kept_.end(), [&](const auto& k) { return k.first == name; });
-    if (known == kept_.end()) return nullptr;
-    kept_.splice(kept_.begin(), kept_, known);
-    return known->second;
-}
-
-void KeptSurfaces::keep(std::uint64_t name, Found found) {
-    const std::lock_guard lock(mutex_);
-    std::erase_if(kept_, [&](const auto& k) { return k.first == name; });
-    kept_.emplace_front(name, std::move(found));
-}
-
 bool KeptSurfaces::was_asked_for(std::uint64_t outline) {
     const std::lock_guard lock(mutex_);
     if (std::find(asked_for_.begin(), asked_for_.end(), outline) != asked_for_.end()) return true;

@@ -1,6 +1,7 @@
 // Keeps the surfaces that were found in a picture, for the next frame of the same picture.
 #pragma once
 
+#include "base/kept.h"
 #include "engine/samples/flat_surfaces.h"
 #include "engine/samples/lamps.h"
 
@@ -8,7 +9,6 @@
 #include <list>
 #include <memory>
 #include <mutex>
-#include <utility>
 
 namespace petzval::engine {
 
@@ -20,32 +20,23 @@ struct FoundSurfaces {
 
 // The estimate depends on the picture, its radii and the quality alone, and takes up to half of a frame. So a
 // frame through another lens, or with other blades or glare, has the surfaces of the frame before. Any number
-// of threads may use it; no picture depends on its contents.
+// of threads may use it at once.
 class KeptSurfaces {
 public:
     // True from the second time on. Frames of a shot are asked for once, and nothing is kept for them.
     bool was_asked_for(std::uint64_t outline);
-    // Those of this name, or find(), which are kept.
+    // The surfaces of this name, or find(), which are kept.
     template <typename Find>
     std::shared_ptr<const FoundSurfaces> get(std::uint64_t name, const Find& find) {
-        if (auto kept = look_up(name)) return kept;
-        // Without the lock: frames that are made side by side may both find them, and neither waits.
-        auto found = std::make_shared<const FoundSurfaces>(find());
-        keep(name, found);
-        return found;
+        return surfaces_.get(name, find);
     }
-    std::size_t bytes() const;
-    // Lets go of those not used longest, until at most so many bytes are kept.
-    void trim(std::size_t max_bytes);
+    std::size_t bytes() const { return surfaces_.bytes(); }
+    void trim(std::size_t max_bytes) { surfaces_.trim(max_bytes); }
 
 private:
-    using Found = std::shared_ptr<const FoundSurfaces>;
-    Found look_up(std::uint64_t name);
-    void keep(std::uint64_t name, Found found);
-
-    mutable std::mutex mutex_;
-    std::list<std::pair<std::uint64_t, Found>> kept_;  // the last used first
-    std::list<std::uint64_t> asked_for_;               // the last first
+    Kept<std::uint64_t, FoundSurfaces> surfaces_;
+    std::mutex mutex_;                    // of asked_for_
+    std::list<std::uint64_t> asked_for_;  // the last first
 };
 
 // A name for all that decides the surfaces of this picture besides `rules`: its light, its radii, and its
@@ -58,7 +49,7 @@ std::uint64_t name_of_surfaces(const EngineView& input, View<const Rgba> colour,
 template <typename Find>
 std::shared_ptr<const FoundSurfaces> kept_or_found(const EngineView& input, View<const Rgba> colour,
                                                    const Dim& dim, std::uint64_t rules, const Find& find) {
-    constexpr int kEveryRow = 16;  // the whole name takes 1 to 2 % of a frame
+    constexpr int kEveryRow = 16;  // the whole name would cost every frame of a shot 1 to 2 %
     KeptSurfaces* const kept = input.services.surfaces;
     if (!kept || !kept->was_asked_for(name_of_surfaces(input, colour, dim, rules, kEveryRow)))
         return std::make_shared<const FoundSurfaces>(find());

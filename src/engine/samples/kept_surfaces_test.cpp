@@ -32,21 +32,6 @@ TEST(KeptSurfaces, AreFoundTwiceThenKept) {
     EXPECT_NE(get(), second);
 }
 
-TEST(KeptSurfaces, ThoseNotUsedLongestGoFirst) {
-    KeptSurfaces kept;
-    int searches = 0;
-    const auto find = [&] { return ++searches, some(); };
-    for (const std::uint64_t name : {1u, 2u, 1u}) kept.get(name, find);
-    EXPECT_EQ(searches, 2);
-    kept.trim(some().bytes());
-    kept.get(1, find);
-    EXPECT_EQ(searches, 2) << "the last used one was let go";
-    kept.get(2, find);
-    EXPECT_EQ(searches, 3);
-    kept.trim(0);
-    EXPECT_EQ(kept.bytes(), 0u);
-}
-
 // Everything that the estimate looks at has its part in the name.
 TEST(KeptSurfaces, AnotherPictureHasAnotherName) {
     Picture colour(8, 8, {0.5f, 0.5f, 0.5f, 1});

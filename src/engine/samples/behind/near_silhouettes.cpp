@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "engine/samples/completion_model.h"
+#include "image/two_sweeps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,24 +34,13 @@ void NearSilhouettes::add(Block& block, const Behind& behind) {
         block[1] = behind;
 }
 
-// A two-sweep chamfer transform (G. Borgefors, "Distance transformations in digital images", 1986) that does
-// not enter surfaces as far as the surface that it carries.
+// A surface does not enter blocks that lie as far as itself.
 void NearSilhouettes::spread(const Plane& nearest) {
-    constexpr float kSide = 0.955f * kBlock, kDiagonal = 1.3693f * kBlock;
-    const int width = blocks_.width(), height = blocks_.height();
-    const auto relax = [&](int x, int y, int dx, int dy) {
-        if (x + dx < 0 || x + dx >= width || y + dy < 0 || y + dy >= height) return;
-        const float step = dx != 0 && dy != 0 ? kDiagonal : kSide;
+    two_sweeps(blocks_.width(), blocks_.height(), [&](int x, int y, int dx, int dy) {
         for (const Behind& b : blocks_(x + dx, y + dy))
             if (b.coc_px > nearest(x, y) + completion_model.step_px)
-                add(blocks_(x, y), {b.beyond_px + step, b.coc_px});
-    };
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x)
-            relax(x, y, -1, 0), relax(x, y, -1, -1), relax(x, y, 0, -1), relax(x, y, 1, -1);
-    for (int y = height - 1; y >= 0; --y)
-        for (int x = width - 1; x >= 0; --x)
-            relax(x, y, 1, 0), relax(x, y, 1, 1), relax(x, y, 0, 1), relax(x, y, -1, 1);
+                add(blocks_(x, y), {b.beyond_px + chamfer_step(dx, dy) * kBlock, b.coc_px});
+    });
 }
 
 }  // namespace petzval::engine

@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 #include "engine/samples/completion_model.h"
 #include "engine/samples/nearest_pixel.h"
+#include "image/two_sweeps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,16 +34,9 @@ void SurfaceSearch::measure_blocks(const Mixtures& mixtures, Workers& workers) {
                                      [&](int x, const Mixture&) { blocks_(x / kBlock, by).free = -kBlock; });
         }
     });
-    const auto relax = [&](int x, int y, int dx, int dy) {
-        if (blocks_.rect().contains(x + dx, y + dy))
-            blocks_(x, y).free = std::min(blocks_(x, y).free, blocks_(x + dx, y + dy).free + kBlock);
-    };
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x)
-            relax(x, y, -1, 0), relax(x, y, -1, -1), relax(x, y, 0, -1), relax(x, y, 1, -1);
-    for (int y = height - 1; y >= 0; --y)
-        for (int x = width - 1; x >= 0; --x)
-            relax(x, y, 1, 0), relax(x, y, 1, 1), relax(x, y, 0, 1), relax(x, y, -1, 1);
+    two_sweeps(width, height, [&](int x, int y, int dx, int dy) {
+        blocks_(x, y).free = std::min(blocks_(x, y).free, blocks_(x + dx, y + dy).free + kBlock);
+    });
 }
 
 // Pixels visited in each direction: every pixel at first, every eighth of the way further out.

@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "engine/samples/connectivity.h"
+#include "image/two_sweeps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,24 +24,15 @@ struct Block {
 
 // Carries the surfaces at silhouettes into the blocks that lie before them.
 void spread(Image<Block>& blocks) {
-    const auto relax = [&](int x, int y, int dx, int dy) {
-        if (!blocks.rect().contains(x + dx, y + dy)) return;
+    two_sweeps(blocks.width(), blocks.height(), [&](int x, int y, int dx, int dy) {
         Block& own = blocks(x, y);
         const Block& other = blocks(x + dx, y + dy);
-        // (The lengths of a chamfer transform: G. Borgefors, "Distance transformations in digital images",
-        // 1986.)
-        const float beyond = other.beyond + float(kBlock) * (dx != 0 && dy != 0 ? 1.3693f : 0.955f);
+        const float beyond = other.beyond + float(kBlock) * chamfer_step(dx, dy);
         if (beyond < own.beyond && other.far > own.nearest && !always_connected(other.far, own.nearest)) {
             own.beyond = beyond;
             own.far = other.far;
         }
-    };
-    for (int y = 0; y < blocks.height(); ++y)
-        for (int x = 0; x < blocks.width(); ++x)
-            relax(x, y, -1, 0), relax(x, y, -1, -1), relax(x, y, 0, -1), relax(x, y, 1, -1);
-    for (int y = blocks.height() - 1; y >= 0; --y)
-        for (int x = blocks.width() - 1; x >= 0; --x)
-            relax(x, y, 1, 0), relax(x, y, 1, 1), relax(x, y, 0, 1), relax(x, y, -1, 1);
+    });
 }
 
 }  // namespace
