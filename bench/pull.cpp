@@ -1,4 +1,5 @@
-// A focus pull through one session, timed: what `./dev bench pull` sets beside as many runs of the program.
+// Frames of one picture through one session, timed: `./dev bench pull` sets them beside as many runs of the
+// program.
 //
 // pull FILE.exr FRAMES LENS ENGINE NEAR_M FAR_M [turn]: reads once, makes FRAMES pictures with focus moving
 // evenly in dioptres, writes none. With "turn", five blades turn instead, by 72 degrees in all. Prints CPU

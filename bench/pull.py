@@ -1,9 +1,9 @@
 """Many frames of one picture: one session beside as many runs of the program, in one run.
 
 Usage: ./dev bench pull [--frames 24] [--width 960] [--lenses doublet,petzval-laikin] [--engines scatter,gather]. The built-in
-night. Focus moves from 2 m to 6 m, evenly in dioptres; then it stays at 2 m while five blades turn. CPU seconds are user + system of all processes; runs of the program read and
-write their frame, the session reads once and writes nothing: the third column is
-what of a run is neither, as its own report says.
+night. Focus moves from 2 m to 6 m, evenly in dioptres; then it stays at 2 m while five blades turn. CPU seconds are user +
+system of all processes; runs of the program read and write their frame, the session reads once and writes nothing: the column
+of computing is what of a run is neither, as its own report says.
 """
 import argparse
 import itertools

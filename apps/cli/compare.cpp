@@ -120,10 +120,8 @@ void check(CompareFlags& flags, const Verb& verb) {
     flags.overwrite.check();
     if (!flags.output.empty()) require_png(flags.output);
     flags.reference.read.need_depth = false;
-    if (has_pattern(flags.output) && flags.frames.given().empty() && !has_pattern(flags.reference.path) &&
-        !has_pattern(flags.test))
-        throw UsageError("-o " + flags.output + " is for shots: neither REF nor TEST contains #### or %04d");
     flags.is_shot = is_sequence(flags.frames, {flags.reference.path, flags.test}, flags.output, flags.run);
+    if (flags.is_shot) require_frames(has_pattern(flags.reference.path) || has_pattern(flags.test));
 }
 
 }  // namespace
