@@ -91,16 +91,18 @@ class Plugin(unittest.TestCase):
                          *CAMERA[:4], "--focus", "4.8m", "-o", f"{name}-codes.exr", "--overwrite")
             return f"{name}-codes.exr"
         source = codes_of("sharp")
-        self.command(PETZVAL, "defocus", "sharp.png", "--depth", "night.exr", *CAMERA, "--focus", "4.8m", "-o", "line.exr", "--overwrite")
-        self.render("host.exr", {**PARAMS, "focusDistance": 4.8, "transfer": "srgb"}, "--clip", f"Source={source}", *self.CLIPS[2:])
+        self.command(PETZVAL, "defocus", "sharp.png", "--depth", "night.exr", *CAMERA, "--focus", "4.8m", "--fill", "off", "-o", "line.exr",
+                     "--save-look", "no-fill.look", "--overwrite")
+        # Nothing is estimated: half floats of codes may tip the choice between two edges behind a pixel.
+        params = {**PARAMS, "focusDistance": 4.8, "look": "no-fill.look"}
+        self.render("host.exr", {**params, "transfer": "srgb"}, "--clip", f"Source={source}", *self.CLIPS[2:])
         report = json.loads(self.command(PETZVAL, "compare", codes_of("line"), "host.exr", "--json", "-").stdout)
-        # The files of codes are of half floats: where colours tie, one pixel's edge may be found otherwise.
-        self.assertGreater(report["psnr_lin"], 60, report)  # 33.5 where codes are taken for light
-        self.render("taken.exr", {**PARAMS, "focusDistance": 4.8}, "--clip", f"Source={source}", *self.CLIPS[2:])
+        self.assertLess(report["max_error"], 3e-3, report)  # the files of codes are of half floats
+        self.render("taken.exr", params, "--clip", f"Source={source}", *self.CLIPS[2:])
         report = json.loads(self.command(PETZVAL, "compare", "taken.exr", "host.exr", "--json", "-").stdout)
         self.assertGreater(report["max_error"], 0.05, "codes taken for light look different")
         # MLT passes on codes, so they are the default there.
-        self.render("mlt.exr", {**PARAMS, "focusDistance": 4.8}, "--host", "MLT", "--clip", f"Source={source}", *self.CLIPS[2:])
+        self.render("mlt.exr", params, "--host", "MLT", "--clip", f"Source={source}", *self.CLIPS[2:])
         report = json.loads(self.command(PETZVAL, "compare", "host.exr", "mlt.exr", "--json", "-").stdout)
         self.assertEqual(report["max_error"], 0, report)
 
