@@ -6,7 +6,7 @@ namespace petzval {
 namespace {
 
 struct TenBytes {
-    std::size_t bytes() const { return 10; }
+    static std::size_t bytes() { return 10; }
 };
 
 TEST(Kept, WhatWasNotUsedLongestGoesFirst) {
