@@ -4,7 +4,7 @@
 #include "petzval/look_json.h"
 #include "petzval/reports/words.h"
 
-#include "sequence/focus_jumps.h"
+#include "sequence/focus/focus_jumps.h"
 #include "sequence/frame_maker.h"
 #include "sequence/read_ahead.h"
 #include "sequence/shot_neighbours.h"
