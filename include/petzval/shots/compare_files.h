@@ -8,6 +8,7 @@
 #include "petzval/shot.h"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,8 @@ struct ComparedFiles {
     std::vector<WorstPlace> worst;
     std::string record;  // JSON (records.h)
 };
+// The result for people: the measures as a table, then a line for each of the worst places.
+PETZVAL_API std::string comparison_text(const ComparedFiles& compared);
 
 // Calls only `say` and `cancelled` of `host`. Errors: those of read_shot(); InvalidArgument if sizes
 // differ; OutputFailed; Cancelled.
@@ -37,5 +40,21 @@ PETZVAL_API Result<ComparedFiles> compare_files(const CompareFiles& files, const
 // `compared` is called after each frame that could be compared. Errors of frames: those above.
 PETZVAL_API FrameWork work_of(const CompareFiles& files, const FrameLoopHost& host,
                               const std::function<void(int frame, const ComparedFiles&)>& compared);
+
+// The comparisons of a shot, collected frame by frame.
+class PETZVAL_API ComparedShot {
+public:
+    void add(int frame, const ComparedFiles& compared);
+    // The frame with the lowest psnr_lin, of several the first; empty without frames.
+    std::optional<int> worst_frame() const;
+    // A row for each frame, the mean of the measures that have one, and the worst frame with its worst
+    // places; empty without frames.
+    std::string text() const;
+
+private:
+    std::string rows_, places_;
+    Comparison sum_, worst_;
+    int count_ = 0, worst_frame_ = 0;
+};
 
 }  // namespace petzval
