@@ -1,6 +1,7 @@
 #include "base/fft.h"
 
 #include "base/check.h"
+#include "base/fft_lanes.h"
 #include "base/parallel.h"
 
 #include <algorithm>
@@ -9,6 +10,33 @@
 #include <utility>
 
 namespace petzval {
+namespace {
+
+using Complex = std::complex<float>;
+
+constexpr std::size_t kBlock = 8;  // complex numbers in a cache line
+
+// Reads kLanes rows. Returns true if a number is not 0.
+bool take_rows(const Complex* rows, std::size_t n, float* re, float* im) {
+    bool any = false;
+    for (std::size_t start = 0; start < n; start += kBlock)
+        for (std::size_t l = 0; l < kLanes; ++l)
+            for (std::size_t i = start; i < start + kBlock; ++i) {
+                const Complex z = rows[l * n + i];
+                re[i * kLanes + l] = z.real(), im[i * kLanes + l] = z.imag();
+                any |= z != 0.0f;
+            }
+    return any;
+}
+
+void put_rows(const float* re, const float* im, std::size_t n, float scale, Complex* rows) {
+    for (std::size_t start = 0; start < n; start += kBlock)
+        for (std::size_t l = 0; l < kLanes; ++l)
+            for (std::size_t i = start; i < start + kBlock; ++i)
+                rows[l * n + i] = {scale * re[i * kLanes + l], scale * im[i * kLanes + l]};
+}
+
+}  // namespace
 
 Fft::Fft(int n) : n_(n), swap_with_(std::size_t(n)) {
     PETZVAL_CHECK(n >= 2 && (n & (n - 1)) == 0);
@@ -32,49 +60,30 @@ void Fft::transform(float* re, float* im, bool inverse) const {
                 std::swap(re[i * kLanes + l], re[j * kLanes + l]);
                 std::swap(im[i * kLanes + l], im[j * kLanes + l]);
             }
-    const float sign = inverse ? 1.0f : -1.0f;
-    for (int half = 1; half < n_; half *= 2) {
-        const int step = n_ / (2 * half);
-        for (int start = 0; start < n_; start += 2 * half)
-            for (int k = 0; k < half; ++k) {
-                const float c = cos_[std::size_t(k * step)], s = sign * sin_[std::size_t(k * step)];
-                const std::ptrdiff_t a = std::ptrdiff_t(start + k) * kLanes,
-                                     b = a + std::ptrdiff_t(half) * kLanes;
-                float *ar = re + a, *ai = im + a, *br = re + b, *bi = im + b;
-                for (int l = 0; l < kLanes; ++l) {
-                    const float tr = br[l] * c - bi[l] * s, ti = br[l] * s + bi[l] * c;
-                    br[l] = ar[l] - tr, bi[l] = ai[l] - ti;
-                    ar[l] += tr, ai[l] += ti;
-                }
-            }
-    }
+    fft_stages({n_, cos_.data(), sin_.data(), inverse ? 1.0f : -1.0f}, re, im);
 }
 
-void fft_square(std::vector<std::complex<float>>& field, const Fft& fft, bool inverse, Workers& workers) {
-    const int n = fft.size();
-    PETZVAL_CHECK(n % kLanes == 0 && field.size() == std::size_t(n) * std::size_t(n));
+void fft_square(std::vector<std::complex<float>>& field, const Fft& fft, bool inverse, Workers& workers,
+                int reach) {
+    const std::size_t n = std::size_t(fft.size());
+    PETZVAL_CHECK(n % kLanes == 0 && field.size() == n * n);
     const float scale = inverse ? 1.0f / float(n) : 1.0f;
-    // Once along rows, once along columns; `along` and `across` are the steps in memory.
-    const auto pass = [&](std::size_t along, std::size_t across) {
-        parallel_for(n / kLanes, workers, [&](int group) {
-            std::vector<float> re(std::size_t(n) * kLanes), im(re.size());
-            std::complex<float>* first = field.data() + std::size_t(group) * kLanes * across;
-            for (std::size_t i = 0; i < std::size_t(n); ++i)
-                for (std::size_t l = 0; l < kLanes; ++l) {
-                    re[i * kLanes + l] = first[i * along + l * across].real();
-                    im[i * kLanes + l] = first[i * along + l * across].imag();
-                }
-            const auto is_zero = [](float v) { return v == 0; };
-            if (std::all_of(re.begin(), re.end(), is_zero) && std::all_of(im.begin(), im.end(), is_zero))
-                return;
-            fft.transform(re.data(), im.data(), inverse);
-            for (std::size_t i = 0; i < std::size_t(n); ++i)
-                for (std::size_t l = 0; l < kLanes; ++l)
-                    first[i * along + l * across] = {scale * re[i * kLanes + l], scale * im[i * kLanes + l]};
-        });
-    };
-    pass(1, std::size_t(n));
-    pass(std::size_t(n), 1);
+    parallel_for(int(n) / kLanes, workers, [&](int group) {
+        std::vector<float> re(n * kLanes), im(re.size());
+        Complex* rows = field.data() + std::size_t(group) * kLanes * n;
+        if (!take_rows(rows, n, re.data(), im.data())) return;
+        fft.transform(re.data(), im.data(), inverse);
+        put_rows(re.data(), im.data(), n, scale, rows);
+    });
+    parallel_for(int(n) / kLanes, workers, [&](int group) {
+        const int first = group * kLanes, last = first + kLanes - 1;
+        if (first > reach && int(n) - last > reach) return;
+        std::vector<float> re(n * kLanes), im(re.size());
+        float* columns = reinterpret_cast<float*>(field.data() + first);
+        if (!take_columns(columns, n, re.data(), im.data())) return;
+        fft.transform(re.data(), im.data(), inverse);
+        put_columns(re.data(), im.data(), n, scale, columns);
+    });
 }
 
 }  // namespace petzval

@@ -1,12 +1,12 @@
 // The discrete Fourier transform of pictures whose sides are powers of two (Cooley and Tukey, 1965).
 //
-// Sixteen rows or columns are transformed side by side, which the compiler turns into SIMD.
+// Sixteen rows or columns are transformed side by side, in SIMD.
 #pragma once
 
 #include "petzval/workers.h"
 
 #include <complex>
-#include <functional>
+#include <limits>
 #include <vector>
 
 namespace petzval {
@@ -25,12 +25,14 @@ public:
 
 private:
     int n_;
-    std::vector<float> cos_, sin_;  // of 2 pi k / n, k < n/2
-    std::vector<int> swap_with_;    // bit-reversed index
+    std::vector<float> cos_, sin_;
+    std::vector<int> swap_with_;  // bit-reversed index
 };
 
-// In place, `side` x `side` complex numbers, row by row. Inverse is divided by side^2. Requires: side is a
-// power of two and a multiple of kLanes.
-void fft_square(std::vector<std::complex<float>>& field, const Fft& fft, bool inverse, Workers& workers);
+// In place, `side` x `side` complex numbers, row by row. Inverse is divided by side^2. Columns farther than
+// `reach` from column 0, around the end, may be left untransformed. Requires: side is a power of two and a
+// multiple of kLanes.
+void fft_square(std::vector<std::complex<float>>& field, const Fft& fft, bool inverse, Workers& workers,
+                int reach = std::numeric_limits<int>::max());
 
 }  // namespace petzval
