@@ -62,8 +62,7 @@ void add_defocus(Verb& program, Action& chosen) {
     flags->add_to(verb);
     when_typed(verb, [flags, &verb, &chosen] {
         flags->check(verb);
-        const bool many = is_sequence(*flags);
-        chosen = [flags, many] { return many ? make_shot(*flags) : make_one(*flags); };
+        chosen = [flags] { return flags->is_shot ? make_shot(*flags) : make_one(*flags); };
     });
 }
 

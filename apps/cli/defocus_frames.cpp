@@ -7,23 +7,6 @@
 #include <utility>
 
 namespace petzval::cli {
-namespace {
-
-void check_temporal(const DefocusFlags& flags, bool from_many) {
-    if (!from_many)
-        throw UsageError("--temporal needs an input of many frames, with #### or %04d in its name");
-    const std::pair<bool, const char*> others[] = {
-        {!flags.input.behind.empty(), "--plate"},
-        {!flags.input.merge.empty(), "--merge"},
-        {flags.input.depth_is_coc(), "--depth-kind coc-px"},
-        {flags.look.look().expand_highlights, "--expand-highlights"},
-        {flags.view == ShotView::Depth, "--view depth"}};
-    for (const auto& [given, name] : others)
-        if (given) throw UsageError(std::string("--temporal cannot be used with ") + name);
-}
-
-}  // namespace
-
 std::vector<std::string> TrackFlags::rack_in_metres() const {
     std::vector<std::string> keys = rack;
     for (std::string& key : keys) {
@@ -98,13 +81,6 @@ bool is_sequence(const DefocusFlags& flags) {
         throw UsageError("-o " + flags.output +
                          " names many frames, but the input is one picture: give the " +
                          "frames with --frames, --track or --rack, or write #### into the input too");
-    const bool racks = !flags.track.rack_in_metres().empty();
-    refuse_both(racks, "--rack", flags.camera.focus_distance_m.has_value(), "--focus");
-    refuse_both(racks, "--rack", flags.focus.focus_at.has_value(), "--focus-at");
-    refuse_both(racks, "--rack", flags.focus.focus_point.has_value(), "--focus-point");
-    if (flags.track.focus_speed && !is_tracked)
-        throw UsageError("--focus-speed has no effect without --track or --rack");
-    if (flags.track.temporal > 0) check_temporal(flags, from_many);
     for (const auto& [given, name] : {std::pair{!flags.track.motion.empty(), "--motion"},
                                       {flags.track.motion_scale.has_value(), "--motion-scale"}})
         if (given && flags.track.temporal == 0)
@@ -112,8 +88,6 @@ bool is_sequence(const DefocusFlags& flags) {
     for (const char* without : {"off", "still", "estimate"})
         if (flags.track.motion == without && flags.track.motion_scale)
             throw UsageError(std::string("--motion-scale has no effect with --motion ") + without);
-    if (flags.frames.missing == MissingFiles::Black && flags.view != ShotView::Beauty)
-        throw UsageError("--missing black is for --view beauty");
     return true;
 }
 

@@ -111,9 +111,12 @@ struct ShotRunSettings {
     std::vector<std::string> warnings = {};
 };
 
-// Refuses files and choices that the view or the engine does not use, with their field. Runs call this
-// function themselves. Errors: InvalidArgument.
+// Refuses settings that contradict each other, and files and choices that the view, the engine or the
+// format of the output does not use, with their field. An empty output is not known yet: what depends on it
+// is not checked. Runs call this function themselves. Errors: InvalidArgument.
 PETZVAL_API Status check(const ShotRunSettings& settings);
+// The part of it about a look and the pictures of its shot, for hosts that choose the rest later.
+PETZVAL_API Status check(const ShotSource& source, const Look& look);
 
 // Settings as JSON: {"input", "output", "frames": "1001-1100", "look": {…}, "camera": {"f_number", …},
 // "focus_at": [x, y], "depth": FILE, "depth_kind", "depth_channel", "layer", "layers": […], "behind",

@@ -152,7 +152,6 @@ Status FrameMaker::check_region() const {
     const auto refuse = [](const std::string& why) {
         return Error{ErrorCode::InvalidArgument, "shot.region " + why, "shot.region"};
     };
-    if (!others_.empty()) return refuse("is for one view of a stereo file");
     if (part->intersected(shot_.place.data_window).empty())
         return refuse("lies outside of the picture, whose frame is " +
                       std::to_string(shot_.place.display_window.width()) + " x " +

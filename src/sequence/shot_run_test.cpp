@@ -188,6 +188,66 @@ TEST(ShotRunSettings, ChoicesWithoutUseForTheViewAreRefusedByTheirField) {
     EXPECT_EQ(field([](auto& s) { s.region = Rect{0, 0, 1, 1}; }), "");
 }
 
+TEST(ShotRunSettings, ContradictionsAreRefusedInTheLibrary) {
+    const auto message = [](const auto& change) {
+        ShotRunSettings changed;
+        changed.output = "out.exr";
+        EXPECT_TRUE(check(changed));
+        change(changed);
+        const Status fine = check(changed);
+        return fine ? std::string() : fine.error().message;
+    };
+    using Settings = ShotRunSettings;
+    EXPECT_EQ(message([](Settings& s) { s.rack = {"1:2m"}, s.source.camera.focus_distance_m = 3; }),
+              "shot.rack and camera.focus_distance_m contradict each other; give one");
+    EXPECT_EQ(message([](Settings& s) {
+                  s.rack = {"1:2m"}, s.focus_pixel = PixelPosition{1, 2};
+              }),
+              "shot.rack and focus.at contradict each other; give one");
+    EXPECT_EQ(message([](Settings& s) { s.focus_speed = 1; }),
+              "shot.focus_speed has no effect without shot.track or shot.rack");
+    EXPECT_EQ(message([](Settings& s) { s.focus_speed = 1, s.track_file = "t.csv"; }), "");
+    EXPECT_EQ(message([](Settings& s) { s.temporal = 2, s.source.behind = "p.exr"; }),
+              "shot.temporal cannot be used with shot.behind");
+    EXPECT_EQ(message([](Settings& s) { s.temporal = 2, s.view = ShotView::Depth; }),
+              "shot.temporal cannot be used with job.view depth");
+    EXPECT_EQ(
+        message([](Settings& s) { s.look.expand_highlights = true, s.source.behind = "p.exr"; }),
+        "plate.expand_highlights cannot be used with shot.behind: a display picture has no clean plate");
+    EXPECT_EQ(message([](Settings& s) { s.missing = MissingFiles::Black, s.view = ShotView::Coc; }),
+              "run.missing black is for job.view beauty");
+}
+
+TEST(ShotRunSettings, ChoicesWithoutUseForTheOutputAreRefusedByTheirField) {
+    const auto field = [](const std::string& output, const auto& change) {
+        ShotRunSettings changed;
+        changed.output = output;
+        change(changed);
+        const Status fine = check(changed);
+        return fine ? std::string() : fine.error().field;
+    };
+    using Settings = ShotRunSettings;
+    EXPECT_EQ(field("out.tif", [](Settings&) {}), "run.output");
+    const auto hidden = [](Settings& s) { s.view = ShotView::Hidden; };
+    EXPECT_EQ(field("out.png", hidden), "job.view");
+    EXPECT_EQ(field("out.exr", hidden), "");
+    const auto layers = [](Settings& s) { s.source.read.layers = {"all"}; };
+    EXPECT_EQ(field("out.png", layers), "read.layers");
+    EXPECT_EQ(field("out.exr", layers), "");
+    const auto tone = [](Settings& s) { s.display.tone = ToneCurve::None; };
+    EXPECT_EQ(field("out.exr", tone), "develop.tone");
+    EXPECT_EQ(field("out.png", tone), "");
+    const auto ocio = [](Settings& s) { s.display_view = "sRGB,Film", s.view = ShotView::Focus; };
+    EXPECT_EQ(field("out.png", ocio), "ocio.view");
+    const auto eyes = [](Settings& s) { s.source.read.view_name = kAllViews; };
+    EXPECT_EQ(field("out.png", eyes), "read.view_name");
+    EXPECT_EQ(field("out.exr", eyes), "");
+    const auto masked = [](Settings& s) { s.source.read.view_name = kAllViews, s.source.mask = "m.exr"; };
+    EXPECT_EQ(field("out.exr", masked), "read.view_name");
+    const auto part = [](Settings& s) { s.source.read.view_name = kAllViews, s.region = Rect{0, 0, 1, 1}; };
+    EXPECT_EQ(field("out.exr", part), "shot.region");
+}
+
 TEST(ShotRunSettings, WrongJsonIsRefusedByItsKey) {
     for (const auto& [text, says] : std::initializer_list<std::pair<const char*, const char*>>{
              {"", "not JSON"},

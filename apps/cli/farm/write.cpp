@@ -48,7 +48,7 @@ void check(WriteFlags& flags, const Verb& verb) {
     DefocusFlags& shot = flags.shot;
     require_argument(verb, shot.input.path, "an input picture after --");
     shot.check(verb);
-    if (!is_sequence(shot))
+    if (!shot.is_shot)
         throw UsageError("a farm renders frames: neither the input nor -o contains #### or %04d");
     if (!shot.frames.report.empty())
         throw UsageError("--report: the job keeps its records itself, in the folder records");

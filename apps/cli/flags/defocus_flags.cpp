@@ -18,6 +18,10 @@ Result<int> parse_overscan(const std::string& text) {
     return Error{ErrorCode::InvalidArgument, "must be off, fit, auto or a number of pixels from 1 to 65536"};
 }
 
+void refuse(const Status& fine) {
+    if (!fine) throw UsageError(in_flags(fine.error().message));
+}
+
 }  // namespace
 
 void DefocusFlags::add_engines_to(Verb& verb) {
@@ -128,9 +132,7 @@ void DefocusFlags::check_choices() {
     look.settle();
     focus.check(camera);
     if (input.depth_is_coc()) check_coc_input();
-    if (look.look().expand_highlights && !input.behind.empty())
-        throw UsageError(
-            "--expand-highlights cannot be used with --plate: a display picture has no clean plate");
+    refuse(petzval::check(input, look.look()));
 }
 
 void DefocusFlags::check_shown() {
@@ -145,46 +147,19 @@ void DefocusFlags::check(const Verb& verb) {
     check_choices();
     if (focus.permissible_radius_px && view != ShotView::Focus && run.json.empty())
         throw UsageError("--permissible-radius has no effect without --view focus or --json");
+    is_shot = is_sequence(*this);
+    refuse(petzval::check(settings()));
     check_view();
-    check_display();
+    ocio.check(develop, input.transfer);
 }
 
-// Flags that --view or --engine have no use for.
+// Flags that --view has no use for; a look from a file may hold them.
 void DefocusFlags::check_view() const {
-    if (const Status fine = petzval::check(settings()); !fine)
-        throw UsageError(in_flags(fine.error().message));
     if (view == ShotView::Beauty) return;
     if (look.is_typed("plate.expand_highlights"))
         throw UsageError("--expand-highlights is part of --view beauty only");
     if (const auto given = look.given({"Glare"}); !given.empty())
         throw UsageError(listed(given) + ": glare is part of --view beauty only");
-}
-
-// Flags of display pictures.
-void DefocusFlags::check_display() const {
-    const auto kind = kind_of_output(output);
-    if (!kind) throw UsageError("-o " + kind.error().message);
-    if (input.read.view_name == kAllViews) {
-        if (*kind != FileKind::Exr || view != ShotView::Beauty)
-            throw UsageError("--view-name all writes the picture of every view to one EXR");
-        if (!input.behind.empty() || !input.holdout.empty() || !input.merge.empty() || !input.mask.empty() ||
-            !points.empty())
-            throw UsageError(
-                "--view-name all cannot be used with --behind, --holdout, --merge, --mask and --points, "
-                "which "
-                "are of one view");
-    }
-    if (region && input.read.view_name == kAllViews)
-        throw UsageError("--roi is for one view; --view-name all blurs every view");
-    if (view == ShotView::Hidden && *kind != FileKind::Exr)
-        throw UsageError("--view hidden is a deep EXR; -o " + output + " is none");
-    if (!input.read.layers.empty() && *kind != FileKind::Exr)
-        throw UsageError("--layers are written to an EXR; -o " + output + " is none");
-    ocio.check(develop, input.transfer);
-    if (ocio.is_on() && (*kind != FileKind::Png || view != ShotView::Beauty))
-        throw UsageError("--ocio applies to display pictures only: -o FILE.png with --view beauty");
-    if (*kind == FileKind::Png && is_developed(view)) return;
-    develop.refuse("applies to display pictures only: -o FILE.png with --view beauty or focus");
 }
 
 std::string DefocusFlags::kernel_cache_folder() const {

@@ -47,6 +47,7 @@ struct DefocusFlags {
     RunFlags run;
     FrameFlags frames;
     TrackFlags track;
+    bool is_shot = false;  // many frames; known after check()
 
     void add_to(Verb& verb);
     // Adds the flags a window uses: input, look, display.
@@ -66,7 +67,6 @@ private:
     void add_output_to(Verb& verb);
     void check_coc_input() const;
     void check_view() const;
-    void check_display() const;
 };
 
 // Messages, progress and cancelling of a run of one picture on this program's terminal.

@@ -30,6 +30,7 @@ const Rows& source_flags() {
         {"run.frames", "--frames"},
         {"run.keep", "--no-clobber"},
         {"run.missing", "--missing"},
+        {"run.output", "-o"},
         {"run.update", "-u"},
         {"scene.camera_at", "--camera-at"},
         {"scene.depth_bits", "--depth-bits"},

@@ -18,10 +18,11 @@ Result<ShotRunSettings> settings_to_save(ShotRunSettings settings, const Choice&
     settings.focus_pixel.reset();
     settings.focus_point.reset();
     settings.look = choice.look;
-    settings.display.exposure_stops = choice.develop.exposure_stops;
-    settings.display.contrast = choice.develop.contrast;
-    settings.display.tone = choice.develop.tone;
-    if (!choice.ocio || *kind != FileKind::Png) settings.display_view = settings.display_space = "";
+    const bool is_png = *kind == FileKind::Png;
+    settings.display = is_png ? DisplayChoice{choice.develop.exposure_stops, choice.develop.contrast,
+                                              choice.develop.tone, settings.display.bits}
+                              : DisplayChoice{};
+    if (!choice.ocio || !is_png) settings.display_view = settings.display_space = "";
     settings.source = with_input(std::move(settings.source), choice.input);
     settings.source.camera = choice.camera;
     if (choice.camera.f_number) settings.source.camera.aperture_diameter_mm.reset();
