@@ -21,6 +21,7 @@ public:
     }
     std::function<Point(Point)> landing(double wavelength_nm, double coc_radius_px,
                                         FieldPosition field) const override;
+    bool is_perfect() const override { return true; }
     double pupil_transmission(Point pupil, double half_width) const override {
         return pupil_.transmission(pupil, half_width);
     }

@@ -1,4 +1,6 @@
 // The laws of the perfect lens: area, energy, orientation, and the agreement of both ways to see it.
+#include "kernel/lenses/ideal_lens.h"
+
 #include "kernel/lenses/make_lens.h"
 
 #include <algorithm>
@@ -221,6 +223,16 @@ TEST(IdealLens, NothingReachesBeyondItsReach) {
     const PointSpread s = lens->point_spread(10, {});
     const double reach = lens->reach_px(10);
     EXPECT_LE(std::max({-s.extent.x0, -s.extent.y0, s.extent.x1 - 1, s.extent.y1 - 1}), reach + 0.5);
+}
+
+TEST(IdealLens, EveryPointOfThePupilLandsAtItselfTimesTheRadius) {
+    LensChoice choice;
+    choice.cats_eye = 0.7;
+    const IdealLens lens(choice, kMount);
+    EXPECT_TRUE(lens.is_perfect());
+    const Point landed = lens.landing(450, 7, {0.5, 0.3})({0.25, -0.5});
+    EXPECT_DOUBLE_EQ(landed.x, 1.75);
+    EXPECT_DOUBLE_EQ(landed.y, -3.5);
 }
 
 TEST(MakeLens, AnUnknownNameListsTheKnownOnes) {

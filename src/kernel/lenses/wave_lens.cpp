@@ -12,9 +12,12 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <optional>
 
 namespace petzval::kernel {
 namespace {
+
+using Wave = std::vector<std::complex<float>>;  // a square of samples, (0, 0) first, negative places last
 
 constexpr double kTurn = 2 * std::numbers::pi;
 constexpr double kShortest_nm = 400, kLongest_nm = 700;
@@ -109,7 +112,16 @@ int power_of_two_at_least(double n) {
     return side;
 }
 
-// Share of each sample in a pixel: samples are 1 wide, pixels `width` wide, both centred on 0.
+// The integral from 0 to t of a cubic line (Catmull and Rom) through samples that are 1 at 0 and else 0.
+double integral_of_sample(double t) {
+    const double a = std::min(2.0, std::abs(t)), b = a * a;
+    return std::copysign(
+        a < 1 ? a - b * (a * (2.5 / 3) - b * 0.375) : 2 * a - b * (2 - a * (2.5 / 3) + b * 0.125) - 1.0 / 6,
+        t);
+}
+
+// Weights of samples in the integral over a pixel: samples are 1 apart, pixels `width` wide, both centred on
+// 0. Between samples, intensity follows a cubic line.
 struct Share {
     int sample = 0;
     float part = 1;
@@ -117,16 +129,13 @@ struct Share {
 std::vector<Share> samples_in(int pixel, double width) {
     const double low = (pixel - 0.5) * width, high = (pixel + 0.5) * width;
     std::vector<Share> shares;
-    for (int k = int(std::floor(low + 0.5)); k - 0.5 < high; ++k) {
-        const double part = std::min(high, k + 0.5) - std::max(low, k - 0.5);
-        if (part > 1e-9) shares.push_back({k, float(part)});
-    }
+    for (int k = int(std::ceil(low)) - 2; k < high + 2; ++k)
+        shares.push_back({k, float(integral_of_sample(high - k) - integral_of_sample(low - k))});
     return shares;
 }
 
 // Intensity summed over the squares of pixels.
-PointSpread summed_over_pixels(const std::vector<std::complex<float>>& field, int side, double wide,
-                               double tall, const Rect& extent) {
+PointSpread summed_over_pixels(const Wave& image, int side, double wide, double tall, const Rect& extent) {
     PointSpread spread{extent, Image<Rgba>(extent.width(), extent.height()), false};
     std::vector<std::vector<Share>> columns;
     for (int x = extent.x0; x < extent.x1; ++x) columns.push_back(samples_in(x, wide));
@@ -135,7 +144,7 @@ PointSpread summed_over_pixels(const std::vector<std::complex<float>>& field, in
         for (const Share& down : samples_in(y, tall)) {
             // The transform repeats: negative places are at its end.
             const std::complex<float>* row =
-                &field[std::size_t(down.sample & (side - 1)) * std::size_t(side)];
+                &image[std::size_t(down.sample & (side - 1)) * std::size_t(side)];
             for (std::size_t i = 0; i < columns.size(); ++i) {
                 float sum = 0;
                 for (const Share& across : columns[i])
@@ -144,9 +153,18 @@ PointSpread summed_over_pixels(const std::vector<std::complex<float>>& field, in
                 w = w + Rgba{1, 1, 1, 0} * (down.part * sum);
             }
         }
+        // A cubic line beside a bright sample may pass below 0.
+        for (int x = 0; x < extent.width(); ++x)
+            if (Rgba& w = spread.weights(x, y - extent.y0); w.r < 0) w = {};
     }
     normalise(spread);
     return spread;
+}
+
+// Turns the wave over the pupil into that over the image, as far as pixels of `wide` samples are asked for.
+void transform(Wave& wave, int side, double wide, const Rect& extent) {
+    const int farthest = std::max({-extent.x0, extent.x1 - 1, 0});
+    fft_square(wave, Fft(side), false, one_thread(), int(std::ceil((farthest + 0.5) * wide)) + 2);
 }
 
 PointSpread convolved(const PointSpread& a, const PointSpread& b) {
@@ -183,6 +201,10 @@ int WaveLens::samples_per_pixel() const {
     return std::max(2, int(std::ceil(2 * pixel_mm_ / (f_number_ * kShortest_nm * 1e-6))));
 }
 
+double WaveLens::pixel_waves(double wavelength_nm) const {
+    return pixel_mm_ / (2 * f_number_ * wavelength_nm * 1e-6);
+}
+
 double WaveLens::tail_px() const {
     return std::min(kLongestTailPx, kTail * f_number_ * kLongest_nm * 1e-6 / pixel_mm_) + 1;
 }
@@ -199,52 +221,87 @@ Rect WaveLens::extent_at(double coc_radius_px) const {
 }
 
 bool WaveLens::is_wave_at(double coc_radius_px) const {
-    return samples_per_pixel() * extent_at(coc_radius_px).width() <= kLargestGrid;
+    return samples_per_pixel() <= kMostInPixel &&
+           samples_per_pixel() * extent_at(coc_radius_px).width() <= kLargestGrid;
+}
+
+// The pupil on a square grid.
+struct WaveLens::PupilGrid {
+    int side = 0;                  // of the transform
+    int half = 0;                  // samples from the middle of the pupil to the borders of `amplitude`
+    double step = 0;               // between samples, in pupil radii
+    std::vector<float> amplitude;  // square root of the light that passes; coverage smooths the rim
+
+    std::size_t columns() const { return std::size_t(2 * half + 1); }
+    const float* row(int j) const { return &amplitude[std::size_t(j + half) * columns()]; }
+    // Samples of the image in a pixel, whose width is this many wavelengths x 2 N.
+    double samples_in(double pixel_waves) const { return step * side * pixel_waves; }
+    // A row of the square that is transformed.
+    std::complex<float>* row_of(Wave& wave, int j) const {
+        return &wave[std::size_t(j & (side - 1)) * std::size_t(side)];
+    }
+};
+
+WaveLens::PupilGrid WaveLens::pupil_grid(double wavelength_nm, FieldPosition field,
+                                         const Rect& extent) const {
+    const int per_pixel = samples_per_pixel();
+    PupilGrid grid;
+    grid.side = std::min(kLargestGrid, power_of_two_at_least(double(per_pixel) * extent.width()));
+    // x u/(2 N wavelength) must be m i/side, for x = m pixel/per_pixel and u = i step.
+    grid.step = per_pixel / (grid.side * pixel_waves(wavelength_nm));
+    const int half = std::min(grid.side / 2 - 2, int(std::ceil(1.02 / grid.step)) + 1);
+    grid.half = half;
+    CoverageBuffer<double> coverage({-half, -half, half + 1, half + 1});
+    std::vector<Point> outline = lens_->pupil_outline(field, 0.02 * grid.step);
+    for (Point& p : outline) p = (1 / grid.step) * p;
+    coverage.add_polygon(outline, 1);
+    grid.amplitude.reserve(grid.columns() * grid.columns());
+    for (int j = -half; j <= half; ++j) {
+        check_cancelled();
+        const double* covered = coverage.resolve_row(j + half);
+        for (int i = -half; i <= half; ++i) {
+            const double open = covered[i + half];
+            const Point u{i * grid.step, j * grid.step};
+            grid.amplitude.push_back(
+                open < 1e-9 ? 0 : float(open * std::sqrt(lens_->pupil_transmission(u, 0.5 * grid.step))));
+        }
+    }
+    return grid;
 }
 
 PointSpread WaveLens::monochromatic(double wavelength_nm, double coc_radius_px, FieldPosition field,
                                     const Rect& extent) const {
-    const Wavefront aberration(lens_->landing(wavelength_nm, coc_radius_px, field), coc_radius_px,
-                               pixel_aspect_);
-    const double px_to_waves = pixel_mm_ / (2 * f_number_ * wavelength_nm * 1e-6);
-    return transformed(wavelength_nm, field, extent, [&](Point u) {
-        return px_to_waves * (0.5 * coc_radius_px * (u.x * u.x + u.y * u.y) + aberration.at(u));
-    });
+    return band(pupil_grid(wavelength_nm, field, extent), wavelength_nm, coc_radius_px, field, extent);
 }
 
-PointSpread WaveLens::transformed(double wavelength_nm, FieldPosition field, const Rect& extent,
-                                  const std::function<double(Point)>& waves) const {
-    const int per_pixel = samples_per_pixel();
-    const int side = std::min(kLargestGrid, power_of_two_at_least(double(per_pixel) * extent.width()));
-    // x u/(2 N wavelength) must be m i/side, for x = m pixel/per_pixel and u = i step.
-    const double step = 2 * f_number_ * wavelength_nm * 1e-6 * per_pixel / (side * pixel_mm_);
-    // Coverage smooths the rim; the axis is entry (0, 0) of the transform.
-    const int half = std::min(side / 2 - 2, int(std::ceil(1.02 / step)) + 1);
-    CoverageBuffer<double> coverage({-half, -half, half + 1, half + 1});
-    std::vector<Point> outline = lens_->pupil_outline(field, 0.02 * step);
-    for (Point& p : outline) p = (1 / step) * p;
-    coverage.add_polygon(outline, 1);
-    std::vector<std::complex<float>> wave(std::size_t(side) * std::size_t(side));
-    const std::size_t columns = std::size_t(2 * half + 1);
-    std::vector<double> turns(columns), amplitude(columns);
+PointSpread WaveLens::band(const PupilGrid& grid, double wavelength_nm, double coc_radius_px,
+                           FieldPosition field, const Rect& extent) const {
+    std::optional<Wavefront> aberration;
+    if (!lens_->is_perfect())
+        aberration.emplace(lens_->landing(wavelength_nm, coc_radius_px, field), coc_radius_px, pixel_aspect_);
+    const double px_to_waves = pixel_waves(wavelength_nm);
+    const std::size_t columns = grid.columns();
+    std::vector<double> turns(columns);
     std::vector<float> cosines(columns), sines(columns);
-    for (int j = -half; j <= half; ++j) {
+    Wave wave(std::size_t(grid.side) * std::size_t(grid.side));
+    for (int j = -grid.half; j <= grid.half; ++j) {
         check_cancelled();
-        const double* covered = coverage.resolve_row(j + half);
+        const float* amplitude = grid.row(j);
         for (std::size_t i = 0; i < columns; ++i) {
-            const Point u{(int(i) - half) * step, j * step};
-            const bool open = covered[i] >= 1e-9;
-            turns[i] = open ? waves(u) : 0;
-            amplitude[i] = open ? covered[i] * std::sqrt(lens_->pupil_transmission(u, 0.5 * step)) : 0;
+            const Point u{(int(i) - grid.half) * grid.step, j * grid.step};
+            const double defocus = 0.5 * coc_radius_px * (u.x * u.x + u.y * u.y);
+            const double bent = aberration && amplitude[i] > 0 ? aberration->at(u) : 0;
+            turns[i] = px_to_waves * (defocus + bent);
         }
         unit_vectors(turns.data(), columns, cosines.data(), sines.data());
-        std::complex<float>* row = &wave[std::size_t(j & (side - 1)) * std::size_t(side)];
+        std::complex<float>* row = grid.row_of(wave, j);
         for (std::size_t i = 0; i < columns; ++i)
-            row[(int(i) - half) & (side - 1)] = {float(amplitude[i]) * cosines[i],
-                                                 float(amplitude[i]) * sines[i]};
+            row[(int(i) - grid.half) & (grid.side - 1)] =
+                amplitude[i] * std::complex<float>{cosines[i], sines[i]};
     }
-    fft_square(wave, Fft(side), false, one_thread());
-    return summed_over_pixels(wave, side, per_pixel, per_pixel / pixel_aspect_, extent);
+    const double wide = grid.samples_in(px_to_waves);
+    transform(wave, grid.side, wide, extent);
+    return summed_over_pixels(wave, grid.side, wide, wide / pixel_aspect_, extent);
 }
 
 PointSpread WaveLens::sum_of_bands(const Rect& extent,
@@ -262,30 +319,48 @@ PointSpread WaveLens::sum_of_bands(const Rect& extent,
 
 PointSpread WaveLens::raw_point_spread(double coc_radius_px, FieldPosition field) const {
     const Rect extent = extent_at(coc_radius_px);
-    if (is_wave_at(coc_radius_px))
-        return sum_of_bands(extent,
-                            [&](double nm) { return monochromatic(nm, coc_radius_px, field, extent); });
+    if (is_wave_at(coc_radius_px)) {
+        const PupilGrid grid = pupil_grid(kShortest_nm, field, extent);
+        return sum_of_bands(extent, [&](double nm) { return band(grid, nm, coc_radius_px, field, extent); });
+    }
     PointSpread spread = convolved(lens_->raw_point_spread(coc_radius_px, field), *focus_figure(field));
     normalise(spread);
     return spread;
 }
 
-// The figure of a perfect focus through the pupil, as far as the grid holds it. It is small against a pixel,
-// so one does for a sixteenth of the half diagonal around, and all of them are kept.
+// A figure is small against a pixel, so one serves a sixteenth of the half diagonal, and all are kept.
 std::shared_ptr<const PointSpread> WaveLens::focus_figure(FieldPosition field) const {
     constexpr double kSteps = 16;
     std::pair<int, int> place{0, 0};
     if (lens_->varies_over_field())
         place = {int(std::lround(kSteps * field.x)), int(std::lround(kSteps * field.y))};
-    const FieldPosition middle{place.first / kSteps, place.second / kSteps};
-    const std::lock_guard lock(figures_mutex_);  // while it is made, too: others would make the same
-    std::shared_ptr<const PointSpread>& figure = figures_[place];
-    if (figure) return figure;
+    std::unique_lock lock(figures_mutex_);
+    std::shared_ptr<FocusFigure>& kept = figures_[place];
+    if (!kept) kept = std::make_shared<FocusFigure>();
+    const std::shared_ptr<FocusFigure> figure = kept;
+    lock.unlock();
+    const std::lock_guard making(figure->mutex);  // another thread would make the same
+    if (!figure->spread)
+        figure->spread =
+            std::make_shared<const PointSpread>(made_figure({place.first / kSteps, place.second / kSteps}));
+    return figure->spread;
+}
+
+// The figure of a perfect focus through the pupil, as far as the grid holds it. Its wave has no phase, so the
+// figure only grows with the wavelength, and one transform serves them all.
+PointSpread WaveLens::made_figure(FieldPosition field) const {
     const int half = std::min(int(std::ceil(tail_px())), (kLargestGrid / samples_per_pixel() - 1) / 2);
     const Rect near{-half, -half, half + 1, half + 1};
-    figure = std::make_shared<const PointSpread>(sum_of_bands(
-        near, [&](double nm) { return transformed(nm, middle, near, [](Point) { return 0.0; }); }));
-    return figure;
+    const PupilGrid grid = pupil_grid(kShortest_nm, field, near);
+    Wave wave(std::size_t(grid.side) * std::size_t(grid.side));
+    for (int j = -grid.half; j <= grid.half; ++j)
+        for (int i = -grid.half; i <= grid.half; ++i)
+            grid.row_of(wave, j)[i & (grid.side - 1)] = grid.row(j)[i + grid.half];
+    transform(wave, grid.side, samples_per_pixel(), near);
+    return sum_of_bands(near, [&](double nm) {
+        const double wide = grid.samples_in(pixel_waves(nm));
+        return summed_over_pixels(wave, grid.side, wide, wide / pixel_aspect_, near);
+    });
 }
 
 PointSpread WaveLens::point_spread(double coc_radius_px, FieldPosition field) const {

@@ -7,8 +7,8 @@
 //     wavelength)) du |^2
 // (Goodman, Introduction to Fourier Optics, ch. 5), evaluated by FFT with at least two samples per wavelength
 // x N and summed over the squares of the pixels. Where that would take more than kLargestGrid samples a side,
-// diffraction is far below a pixel: then the kernel of rays is convolved with the diffraction figure of the
-// focus.
+// or more than kMostInPixel in a pixel, diffraction is far below a pixel: then the kernel of rays is
+// convolved with the diffraction figure of the focus.
 #pragma once
 
 #include "kernel/lenses/geometric_lens.h"
@@ -23,6 +23,7 @@ namespace petzval::kernel {
 class WaveLens final : public LensModel {
 public:
     static constexpr int kLargestGrid = 1024;
+    static constexpr int kMostInPixel = 48;  // samples a side
 
     // wavelengths: bands of the spectrum; 0: 21.
     WaveLens(std::unique_ptr<const GeometricLens> lens, const Mount& mount, int wavelengths = 0,
@@ -51,11 +52,20 @@ private:
     Rect extent_at(double coc_radius_px) const;
     double tail_px() const;
     int samples_per_pixel() const;
-    // Kernel of a pupil whose wavefront is `waves`, in wavelengths.
-    PointSpread transformed(double wavelength_nm, FieldPosition field, const Rect& extent,
-                            const std::function<double(Point)>& waves) const;
+    // A pixel in wavelengths x 2 N: phases of a wavefront in pixels x pupil radii times this are in turns.
+    double pixel_waves(double wavelength_nm) const;
+    struct PupilGrid;
+    // The grid for an extent. All longer wavelengths may use it too: fewer of its samples make a pixel.
+    PupilGrid pupil_grid(double wavelength_nm, FieldPosition field, const Rect& extent) const;
+    PointSpread band(const PupilGrid& grid, double wavelength_nm, double coc_radius_px, FieldPosition field,
+                     const Rect& extent) const;
+    PointSpread made_figure(FieldPosition field) const;
     PointSpread sum_of_bands(const Rect& extent, const std::function<PointSpread(double)>& one_band) const;
 
+    struct FocusFigure {
+        std::mutex mutex;
+        std::shared_ptr<const PointSpread> spread;
+    };
     std::shared_ptr<const PointSpread> focus_figure(FieldPosition field) const;
 
     std::unique_ptr<const GeometricLens> lens_;
@@ -64,7 +74,7 @@ private:
     LightSpectrum light_;
 
     mutable std::mutex figures_mutex_;
-    mutable std::map<std::pair<int, int>, std::shared_ptr<const PointSpread>> figures_;
+    mutable std::map<std::pair<int, int>, std::shared_ptr<FocusFigure>> figures_;
 };
 
 }  // namespace petzval::kernel

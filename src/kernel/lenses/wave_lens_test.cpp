@@ -1,6 +1,7 @@
 // Diffraction against what is known of it in closed form.
 #include "kernel/lenses/wave_lens.h"
 
+#include "colour/spectrum.h"
 #include "kernel/lenses/ideal_lens.h"
 #include "kernel/lenses/kernel_testing.h"
 
@@ -164,6 +165,44 @@ TEST(WaveLens, WhereDiffractionIsFarBelowAPixelItIsLaidOverTheRays) {
     const PointSpread waves = lens.point_spread(20, {}), rays = lens_of({})->point_spread(20, {});
     EXPECT_LT(largest_difference(waves, rays), 0.1 * brightest(rays));
     EXPECT_NEAR(sums(waves).g, 1, 1e-5);
+}
+
+TEST(WaveLens, BandsShareAPupilAsIfEachHadItsOwn) {
+    // The sum of bands on separate grids. A shared grid has fewer samples in a pixel of long waves.
+    LensChoice choice;
+    choice.aperture.blades = 5;
+    const Mount mount = small_sensor(8);
+    const WaveLens lens = ideal_wave(mount, choice);
+    for (const double radius : {0.0, 6.0}) {
+        const PointSpread together = lens.raw_point_spread(radius, {});
+        Image<float> apart(together.weights.width(), together.weights.height());
+        for (const colour::SpectralBand& band : colour::spectral_bands(21)) {
+            const PointSpread one = lens.monochromatic(band.wavelength_nm, radius, {}, together.extent);
+            for (std::size_t i = 0; i < apart.size(); ++i)
+                apart.pixels()[i] += float(band.g) * one.weights.pixels()[i].g;
+        }
+        for (std::size_t i = 0; i < apart.size(); ++i)
+            ASSERT_NEAR(double(together.weights.pixels()[i].g), double(apart.pixels()[i]),
+                        0.02 * brightest(together))
+                << radius;
+    }
+}
+
+TEST(WaveLens, APixelOfManyWavelengthsGetsTheKernelOfRaysAtAnyRadius) {
+    // 37.5 micrometres at f/2: 47 pairs of samples.
+    const Mount coarse = full_frame(2, 960), fine = full_frame(8, 960);
+    EXPECT_FALSE(ideal_wave(coarse).is_wave_at(0.5));
+    EXPECT_TRUE(ideal_wave(fine).is_wave_at(0.5));
+    EXPECT_FALSE(ideal_wave(fine).is_wave_at(60));
+}
+
+TEST(WaveLens, FiguresOfFocusGrowWithTheWavelength) {
+    // Rays meet in one pixel: red light reaches farther than blue.
+    const PointSpread s = ideal_wave(full_frame(2, 960)).raw_point_spread(0, {});
+    const Rgba beside = weight_at(s, 1, 0);
+    EXPECT_GT(beside.r, 1.2f * beside.b);
+    EXPECT_GT(beside.b, 0);
+    EXPECT_NEAR(sums(s).g, 1, 1e-5);
 }
 
 TEST(WaveLens, OffIsTheLensOfRays) {
