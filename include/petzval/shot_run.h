@@ -82,7 +82,8 @@ struct ShotRunSettings {
     ShotView view = ShotView::Beauty;
     std::optional<int> overscan_px = {};
     // The part of the display window that is rendered and written, counted from its top left: the same pixels
-    // as in the whole frame. For ShotView::Beauty of one view.
+    // as in the whole frame. A part beyond the window is cut, with a warning. For ShotView::Beauty of one
+    // view.
     std::optional<Rect> region = {};
     DisplayChoice display = {};             // of PNG outputs
     std::optional<Transfer> transfer = {};  // of display codes, read and written; the user's choice

@@ -16,6 +16,11 @@ std::string in_words(const HighlightExpansion& e) {
            " at 1 (assumed); pixels are in the plate's own range";
 }
 
+std::string corners_text(const Rect& r) {
+    return std::to_string(r.x0) + "," + std::to_string(r.y0) + "," + std::to_string(r.x1) + "," +
+           std::to_string(r.y1);
+}
+
 namespace {
 
 // Files that a frame is made of, without those of its look.
@@ -39,9 +44,7 @@ MadeWith made_with(const ShotRunSettings& settings, const FrameContext& context)
         made.add("focus.point", plain(point->x, 9) + "," + plain(point->y, 9) + "," + plain(point->z, 9));
     if (settings.view == ShotView::Focus && settings.permissible_radius_px != 1)
         made.add("focus.permissible_radius_px", settings.permissible_radius_px);
-    if (const auto& r = settings.region)
-        made.add("shot.region", std::to_string(r->x0) + "," + std::to_string(r->y0) + "," +
-                                    std::to_string(r->x1) + "," + std::to_string(r->y1));
+    if (const auto& r = settings.region) made.add("shot.region", corners_text(*r));
     if (settings.overscan_px) made.add("shot.overscan_px", double(*settings.overscan_px));
     if (settings.temporal > 0) {
         made.add("shot.temporal", double(settings.temporal));

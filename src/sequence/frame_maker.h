@@ -40,6 +40,8 @@ Status make_black_frame(const ShotRunSettings& settings, const ShotRunSettings& 
 
 // The assumption in words, for logs and the attribute petzval:expandHighlights.
 std::string in_words(const HighlightExpansion& expansion);
+// "x0,y0,x1,y1", as shot.region has it.
+std::string corners_text(const Rect& r);
 
 // Settings that Update compares.
 MadeWith made_with(const ShotRunSettings& settings, const FrameContext& context);
@@ -72,7 +74,7 @@ private:
     Status compute();
     Status render(const Rendered& lent);
     std::optional<Rect> region() const;
-    Status check_region() const;
+    Status check_region();
     void crop_to_region();
     void report_frame(const DefocusReport& done, double seconds);
     Result<DefocusReport> take(const Rendered& lent);

@@ -146,16 +146,19 @@ std::optional<Rect> FrameMaker::region() const {
     return settings_.region->moved(display.x0, display.y0).intersected(display);
 }
 
-Status FrameMaker::check_region() const {
+Status FrameMaker::check_region() {
     const auto part = region();
     if (!part) return Done{};
-    const auto refuse = [](const std::string& why) {
-        return Error{ErrorCode::InvalidArgument, "shot.region " + why, "shot.region"};
-    };
+    const Rect& frame = shot_.place.display_window;
+    const std::string size =
+        std::to_string(frame.width()) + " x " + std::to_string(frame.height()) + " pixels";
     if (part->intersected(shot_.place.data_window).empty())
-        return refuse("lies outside of the picture, whose frame is " +
-                      std::to_string(shot_.place.display_window.width()) + " x " +
-                      std::to_string(shot_.place.display_window.height()) + " pixels");
+        return Error{ErrorCode::InvalidArgument,
+                     "shot.region lies outside of the picture, whose frame is " + size, "shot.region"};
+    const Rect made = part->moved(-frame.x0, -frame.y0);
+    if (made != *settings_.region)
+        warn({"shot.region " + corners_text(*settings_.region) + " extends beyond the frame of " + size +
+              "; the part " + corners_text(made) + " is rendered"});
     return Done{};
 }
 

@@ -1,4 +1,5 @@
 """defocus --roi: part of a frame, bit for bit as in the whole."""
+import json
 import unittest
 
 from pictures import read_exr
@@ -31,8 +32,18 @@ class Region(CommandLineTest):
             head = file.read(24)
         self.assertEqual((int.from_bytes(head[16:20], "big"), int.from_bytes(head[20:24], "big")), (60, 41))
 
+    def test_a_part_beyond_the_frame_is_cut_with_a_warning(self):
+        warning = "--roi 150,90,300,200 extends beyond the frame of 192 x 108 pixels; the part 150,90,192,108 is rendered"
+        outcome = self.succeed("defocus", "in.exr", "-o", "cut.exr", "--roi", "150,90,300,200", "--json", "r.json")
+        self.assertIn("petzval: warning: " + warning, outcome.lines)
+        self.assertIn(warning, json.loads(self.content("r.json"))["warnings"])
+        inside = self.succeed("defocus", "in.exr", "-o", "inside.exr", "--roi", "150,90,192,108")
+        self.assertNotIn("warning", inside.err)
+        self.assertEqual(read_exr(self.path("cut.exr"))[0], read_exr(self.path("inside.exr"))[0])
+
     def test_what_has_no_pixels_is_refused(self):
         self.refuse(2, "defocus", "in.exr", "-o", "o.exr", "--roi", "300,0,400,50", says=["--roi", "192 x 108"])
+        self.refuse(2, "defocus", "in.exr", "-o", "o.exr", "--roi=-50,-50,-10,-10", says=["--roi", "192 x 108"])
         self.refuse(2, "defocus", "in.exr", "-o", "o.exr", "--roi", "30,0,20,50", says=["--roi"])
         self.refuse(2, "defocus", "in.exr", "-o", "o.exr", "--roi", "0,0,9,9", "--view", "coc", says=["--roi"])
 
