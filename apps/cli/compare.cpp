@@ -75,12 +75,13 @@ void add_compare(Verb& program, Action& chosen) {
                flags->exposure)
         .reads("--mask", "FILE", "count only pixels where this picture is above one half", flags->mask);
     FlagGroup(verb, "Output")
-        .writes("-o,--output", "FILE.png",
-                "heat map of the difference in sRGB codes, logarithmic, with the worst places outlined",
-                flags->output);
+        .writes_frames(
+            "-o,--output", "FILE.png",
+            "heat map of the difference in sRGB codes, logarithmic, with the worst places outlined",
+            flags->output);
     flags->overwrite.add_to(verb, false);
     flags->frames.add_to(verb);
-    flags->run.add_json_to(verb);
+    flags->run.add_json_of_frames_to(verb);
     flags->run.add_log_to(verb, false);
     when_typed(verb, chosen, flags, check,
                [](const auto& given) { return given.is_shot ? compare_frames(given) : compare_pair(given); });

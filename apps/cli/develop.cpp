@@ -96,11 +96,11 @@ void add_develop(Verb& program, Action& chosen) {
     auto flags = std::make_shared<DevelopVerbFlags>();
     flags->input.add_to(verb);
     flags->input.add_transfer_to(verb);
-    FlagGroup(verb, "Output").writes("-o,--output", "OUT.png", "the display picture", flags->output);
+    FlagGroup(verb, "Output").writes_frames("-o,--output", "OUT.png", "the display picture", flags->output);
     flags->camera.add_to(verb, "file");
     flags->look.add_to(verb, {"Lens", "Glare"});
     flags->frames.add_to(verb);
-    flags->run.add_json_to(verb);
+    flags->run.add_json_of_frames_to(verb);
     flags->overwrite.add_to(verb, true);
     flags->develop.add_to(verb);
     flags->ocio.add_to(verb);

@@ -49,7 +49,11 @@ bool is_sequence(const FrameFlags& frames, const std::vector<std::string>& input
                  const RunFlags& run) {
     const bool from_many = std::any_of(inputs.begin(), inputs.end(), has_pattern);
     const bool to_many = has_pattern(output);
-    if (!from_many && !to_many && frames.given().empty()) return false;
+    if (!from_many && !to_many && frames.given().empty()) {
+        if (has_pattern(run.json))
+            throw UsageError("--json " + run.json + ": names many frames, but there is one picture");
+        return false;
+    }
     if (!from_many && !to_many)
         throw UsageError(listed(frames.given()) + " is for shots: neither the input nor -o contains " +
                          "#### or %04d");

@@ -72,7 +72,7 @@ void add_inspect(Verb& program, Action& chosen) {
     flags->camera.add_to(verb, "file");
     add_permissible_radius_to(verb, flags->permissible_radius_px);
     flags->frames.add_to(verb);
-    flags->run.add_json_to(verb);
+    flags->run.add_json_of_frames_to(verb);
     flags->run.add_log_to(verb, false);
     when_typed(verb, chosen, flags, check,
                [](const auto& given) { return given.is_shot ? inspect_frames(given) : inspect(given); });

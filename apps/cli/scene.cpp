@@ -84,18 +84,17 @@ void MakeFlags::add_to(Verb& verb) {
                scene.depth_bits);
     camera.add_to(verb, "scene");
     FlagGroup(verb, "Output")
-        .writes("-o,--output", "FILE.exr", "sharp picture, planar Z in metres and camera numbers", output)
-        .writes("--truth", "FILE.exr",
-                "also write the ray-traced truth: the picture that this camera's lens records", truth)
-        .writes("--layers", "FILE.exr", "also write the hidden surfaces, as a deep EXR for defocus --plate",
-                layers);
-    FlagGroup(verb, "Output")
+        .writes_frames("-o,--output", "FILE.exr", "sharp picture, planar Z in metres and camera numbers",
+                       output)
+        .writes_frames("--truth", "FILE.exr",
+                       "also write the ray-traced truth: the picture that this camera's lens records", truth)
+        .writes_frames("--layers", "FILE.exr",
+                       "also write the hidden surfaces, as a deep EXR for defocus --plate", layers)
         .on("--motion",
             "also write motion vectors of a moving scene into the sharp picture: forward.u, forward.v to the "
-            "next "
-            "frame, backward.u, backward.v to the previous one, in pixels, y upwards",
+            "next frame, backward.u, backward.v to the previous one, in pixels, y upwards",
             motion);
-    run.add_json_to(verb);
+    run.add_json_of_frames_to(verb);
     overwrite.add_to(verb, false);
     run.add_threads_to(verb);
     run.add_log_to(verb, true);
@@ -145,8 +144,9 @@ void MakeFlags::check(const Verb& verb) {
     if (many && frames.frames.empty())
         throw UsageError("-o " + output + " names many frames: give --frames, such as --frames 0-11");
     for (const std::string& file : files)
-        if (many && !has_pattern(file))
-            throw UsageError(file + ": the output of many frames must contain #### or %04d");
+        if (many != has_pattern(file))
+            throw UsageError(file + (many ? ": the output of many frames must contain #### or %04d"
+                                          : ": names many frames, but -o is one picture"));
 }
 
 SceneFiles files_of(const MakeFlags& flags) {

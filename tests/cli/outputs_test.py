@@ -7,7 +7,7 @@ import subprocess
 import unittest
 
 from pictures import camera_attributes, picture, write_exr
-from program import PETZVAL, CommandLineTest
+from program import CAMERA, PETZVAL, CommandLineTest
 
 LEFT = ".out.exr.999999-0.unfinished"
 # Verbs that write a report, and those that write something else besides.
@@ -102,6 +102,43 @@ class Outputs(CommandLineTest):
             process.send_signal(signal.SIGHUP)
             errors.read()
         self.assertEqual(process.wait(20), 0)
+
+
+class NamesOfFrames(CommandLineTest):
+    """A name with #### stands for many files: a run that writes one file refuses it before the work."""
+
+    def test_one_file_has_no_frame_number(self):
+        write_exr(self.path("in.exr"), picture(16, 8, 0.5, 3))
+        for words in (["inspect", "in.exr", "--json", "x.####.json"],
+                      ["defocus", "in.exr", "-o", "out.exr", *CAMERA, "--json", "x.%04d.json"],
+                      ["defocus", "in.exr", "-o", "out.exr", *CAMERA, "--save-look", "x.####.json"],
+                      ["develop", "in.exr", "-o", "out.png", "--json", "x.####.json"],
+                      ["compare", "in.exr", "in.exr", "--json", "x.####.json"],
+                      ["scene", "make", "bars", "-o", "out.exr", "--truth", "x.####.exr"],
+                      ["scene", "points", "city", "-o", "x.####.csv"],
+                      ["lens", "psf", "doublet", "-o", "x.####.png"],
+                      ["lens", "show", "doublet", "--json", "x.####.json"],
+                      ["lens", "report", "doublet", "-o", "x.####.html"]):
+            self.refuse(2, *words, says=["names many frames", next(w for w in words if w.startswith("x."))])
+        self.assertEqual(os.listdir(self.folder), ["in.exr"])
+
+    def test_one_file_of_a_shot_has_none_either(self):
+        for frame in (1, 2):
+            write_exr(self.path("in.000%d.exr" % frame), picture(16, 8, 0.5, 3))
+        before = sorted(os.listdir(self.folder))
+        for words in (["sheet", "in.####.exr", "-o", "x.####.png"],
+                      ["focus-track", "in.####.exr", "-o", "x.####.csv", "--at", "3,3"],
+                      ["focus-track", "in.####.exr", "-o", "t.csv", "--plot", "x.####.svg", "--at", "3,3"],
+                      ["inspect", "in.####.exr", "--report", "x.####.jsonl"]):
+            self.refuse(2, *words, says=["names many frames"])
+        self.assertEqual(sorted(os.listdir(self.folder)), before)
+        self.succeed("inspect", "in.####.exr", "--json", "x.####.json")
+        self.assertTrue(os.path.exists(self.path("x.0002.json")))
+
+    def test_a_file_of_that_very_name_is_one_file(self):
+        write_exr(self.path("in.exr"), picture(16, 8, 0.5, 3))
+        open(self.path("take #2.json"), "w").close()
+        self.succeed("inspect", "in.exr", "--json", "take #2.json")
 
 
 if __name__ == "__main__":

@@ -41,10 +41,11 @@ void DefocusFlags::add_engines_to(Verb& verb) {
 
 void DefocusFlags::add_output_to(Verb& verb) {
     FlagGroup(verb, "Output")
-        .writes("-o,--output", "OUT",
-                "the result: .exr holds scene-linear light and all other channels of the input, .png a "
-                "display picture",
-                output)
+        .writes_frames(
+            "-o,--output", "OUT",
+            "the result: .exr holds scene-linear light and all other channels of the input, .png a "
+            "display picture",
+            output)
         .choice("--view",
                 "buffer to write: beauty, the picture (default); coc, signed blur radius; focus, map of "
                 "sharp, near and far; depth; alpha; hidden, all surfaces as deep EXR; of scatter: layers, "
@@ -103,7 +104,7 @@ void DefocusFlags::add_to(Verb& verb) {
     add_output_to(verb);
     frames.add_to(verb);
     track.add_to(verb);
-    run.add_json_to(verb);
+    run.add_json_of_frames_to(verb);
     overwrite.add_to(verb, true);
     develop.add_to(verb);
     ocio.add_to(verb);

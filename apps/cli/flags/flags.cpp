@@ -1,5 +1,7 @@
 #include "flags/flags.h"
 
+#include "petzval/frames.h"
+
 #include "guard.h"
 #include "help/help_forms.h"
 
@@ -137,13 +139,29 @@ FlagGroup& FlagGroup::reads(const std::string& name, const std::string& placehol
     return value(name, placeholder, help, parse, target);
 }
 
+namespace {
+
+Result<std::string> written(Result<std::string> path) {
+    if (path) run_files().writes(*path);
+    return path;
+}
+
+}  // namespace
+
+Result<std::string> parse_one_file(const std::string& text) {
+    if (!has_frame_number(text)) return parse_text(text);
+    return Error{ErrorCode::InvalidArgument, "names many frames, but one file is written"};
+}
+
 FlagGroup& FlagGroup::writes(const std::string& name, const std::string& placeholder, const std::string& help,
                              std::string& target) {
-    const auto parse = [](const std::string& text) {
-        auto path = parse_text(text);
-        if (path) run_files().writes(*path);
-        return path;
-    };
+    const auto parse = [](const std::string& text) { return written(parse_one_file(text)); };
+    return value(name, placeholder, help, parse, target);
+}
+
+FlagGroup& FlagGroup::writes_frames(const std::string& name, const std::string& placeholder,
+                                    const std::string& help, std::string& target) {
+    const auto parse = [](const std::string& text) { return written(parse_text(text)); };
     return value(name, placeholder, help, parse, target);
 }
 

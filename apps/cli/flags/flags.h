@@ -92,10 +92,13 @@ public:
     FlagGroup& values(const std::string& name, const std::string& placeholder, const std::string& help,
                       std::vector<std::string>& target);
     // "--name FILE": a file that the run reads, or writes; the file is registered with the guard (guard.h).
+    // Only that of writes_frames() may hold a frame number.
     FlagGroup& reads(const std::string& name, const std::string& placeholder, const std::string& help,
                      std::string& target);
     FlagGroup& writes(const std::string& name, const std::string& placeholder, const std::string& help,
                       std::string& target);
+    FlagGroup& writes_frames(const std::string& name, const std::string& placeholder, const std::string& help,
+                             std::string& target);
     // "--name", without a value.
     template <typename Target>
     FlagGroup& on(const std::string& name, const std::string& help, Target& target) {
@@ -118,6 +121,9 @@ private:
     Verb& verb_;
     std::string heading_;
 };
+
+// The name of one file. Errors: InvalidArgument if it holds a frame number.
+Result<std::string> parse_one_file(const std::string& text);
 
 // Reads words as the command line of a verb. Throws UsageError, in the words of `name`.
 void read_words(const std::string& name, const std::function<void(Verb&)>& add,

@@ -14,11 +14,16 @@ const NameTable<ProgressMode> kProgressModes{{"auto", ProgressMode::Auto},
                                              {"json", ProgressMode::JsonLines},
                                              {"off", ProgressMode::Off}};
 
+constexpr const char* kJsonHelp = "write a report of the run as JSON; - is standard output";
+
 }  // namespace
 
 void RunFlags::add_json_to(Verb& verb) {
-    FlagGroup(verb, "Output")
-        .writes("--json", "FILE", "write a report of the run as JSON; - is standard output", json);
+    FlagGroup(verb, "Output").writes("--json", "FILE", kJsonHelp, json);
+}
+
+void RunFlags::add_json_of_frames_to(Verb& verb) {
+    FlagGroup(verb, "Output").writes_frames("--json", "FILE", kJsonHelp, json);
 }
 
 void RunFlags::add_threads_to(Verb& verb) {

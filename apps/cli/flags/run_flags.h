@@ -15,6 +15,7 @@ struct RunFlags {
     std::string json;  // a file, "-" for standard output, or empty
 
     void add_json_to(Verb& verb);
+    void add_json_of_frames_to(Verb& verb);  // of verbs that make one picture or many frames
     void add_threads_to(Verb& verb);
     void add_log_to(Verb& verb, bool with_progress);
     // Throws UsageError for contradictions; sets the verbosity.

@@ -1,6 +1,7 @@
 // petzval lens report: the sheet of a lens as one HTML page, and sheets of all lenses.
 #include "console/report.h"
 
+#include "petzval/frames.h"
 #include "petzval/lens_facts.h"
 #include "petzval/lens_report.h"
 
@@ -93,6 +94,8 @@ void check(LensReportFlags& flags, const Verb& verb) {
     if (many) require_argument(verb, flags.output, "-o DIR");
     const std::string who = flags.all ? "--all" : "a report of several lenses";
     if (many && is_page(flags.output)) throw UsageError(who + " writes many pages: -o must be a folder");
+    if (is_page(flags.output) && has_frame_number(flags.output))
+        throw UsageError("-o " + flags.output + ": " + parse_one_file(flags.output).error().message);
     flags.overwrite.check();
     if (many && flags.overwrite.no_clobber)
         throw UsageError("--no-clobber has no effect with " + who + ", which writes many pages");
