@@ -100,4 +100,12 @@ PETZVAL_API Result<LensFacts> lens_facts(const Lens& lens);
 // Errors: as above, and those of Lens::open().
 PETZVAL_API Result<LensFacts> lens_facts(const std::string& name_or_file);
 
+// The same facts as text for people, in lines of at most 96 columns as far as words allow; tables are wider.
+// Names from a lens file are not made printable.
+PETZVAL_API std::string lens_list_text(const std::vector<LensSummary>& lenses);
+PETZVAL_API std::string lens_facts_text(const LensFacts& facts);
+// Focal length and f-number beside the printed ones, assumptions and doubts. input: the name or file that
+// the lens was opened by.
+PETZVAL_API std::string lens_check_text(const LensFacts& facts, const std::string& input);
+
 }  // namespace petzval

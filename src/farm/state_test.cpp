@@ -62,6 +62,17 @@ TEST_F(FarmStateTest, ASummaryCountsStatesAndNamesFramesToTry) {
     EXPECT_EQ(sum.peak_bytes, 7u);
 }
 
+TEST_F(FarmStateTest, TheTextCountsFramesByStateAndNamesFailures) {
+    FarmSummary sum = farm_summary(frames_of_all_states());
+    shot.frames = {1, 2, 3, 4}, shot.memory_bytes = 3u << 20;
+    sum.peak_bytes = (1u << 20) + 1;
+    const std::string text = farm_text(shot, sum);
+    for (const char* line :
+         {": 4 frames, 1-4\n", "  complete  1  1\n", "  failed    1  2\n", "frame 2: no depth\n",
+          "median 5, slowest 5 (frame 3)\n", "memory: peak 2M of 3M\n"})
+        EXPECT_NE(text.find(line), std::string::npos) << text;
+}
+
 TEST_F(FarmStateTest, RecordsAreMergedAndCommandsLeftForFramesToTry) {
     auto frames = frames_of_all_states();
     ASSERT_TRUE(merge_farm_records(shot, frames));

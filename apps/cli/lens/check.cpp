@@ -8,33 +8,10 @@
 #include "flags/values.h"
 #include "verbs.h"
 
-#include <cmath>
 #include <memory>
 
 namespace petzval::cli {
 namespace {
-
-// "focal length  50.02 mm  (printed 50 mm, +0.04 %)"
-std::string beside(const std::string& label, double ours, double printed, const std::string& unit) {
-    std::string text =
-        label + std::string(label.size() < 14 ? 14 - label.size() : 1, ' ') + plain(ours, 5) + unit;
-    if (printed > 0)
-        text += "  (printed " + plain(printed, 6) + unit + ", " + (ours < printed ? "" : "+") +
-                plain(100 * (ours / printed - 1), 2) + " %)";
-    return text + "\n";
-}
-
-std::string check_text(const LensFacts& facts, const std::string& input) {
-    std::string text = input + ": " + (facts.format.empty() ? "ships with petzval" : facts.format) + ", " +
-                       std::to_string(facts.seidel_per_surface.size()) + " surfaces\n";
-    text += beside("focal length", facts.efl_mm, facts.printed_efl_mm, " mm");
-    text += beside("f-number", facts.f_number, facts.printed_f_number, "");
-    const std::size_t guesses = facts.warnings.size() - facts.doubts.size();
-    for (std::size_t i = 0; i < guesses; ++i) text += "assumed: " + facts.warnings[i] + "\n";
-    for (const std::string& doubt : facts.doubts) text += "doubt: " + doubt + "\n";
-    if (facts.doubts.empty()) text += "no doubts\n";
-    return printable(text);
-}
 
 Status check_lens(const std::string& input, const RunFlags& run) {
     const Stopwatch watch;
@@ -49,7 +26,7 @@ Status check_lens(const std::string& input, const RunFlags& run) {
         report[key] = json_of(lens_facts_json(*facts))[key];
     report["seconds"]["compute"] = report["seconds"]["total"] = watch.seconds();
     report["peak_memory_bytes"] = peak_memory_bytes();
-    if (Status told = tell(check_text(*facts, input), report, run.json); !told) return told;
+    if (Status told = tell(printable(lens_check_text(*facts, input)), report, run.json); !told) return told;
     if (!facts->doubts.empty())
         throw DoubtsFound{input + ": " + std::to_string(facts->doubts.size()) +
                           (facts->doubts.size() == 1 ? " doubt" : " doubts")};

@@ -49,6 +49,9 @@ struct FarmSummary {
     std::size_t incomplete = 0;
 };
 PETZVAL_API FarmSummary farm_summary(const std::vector<FarmFrame>& frames);
+// The summary as text for people: frames by state, failures, seconds and memory. Messages are not made
+// printable.
+PETZVAL_API std::string farm_text(const FarmShot& shot, const FarmSummary& sum);
 // A JSON array with the state of each frame, infinity as record_of_number() writes it.
 PETZVAL_API std::string record_of_frames(const std::vector<FarmFrame>& frames);
 // Writes all records, in the order of frames, to FOLDER/report.jsonl, and the commands for `to_try` to
