@@ -4,13 +4,13 @@
 #include "console/console.h"
 #include "console/report.h"
 #include "flags/camera.h"
+#include "flags/fields.h"
 #include "flags/run_flags.h"
 #include "frames.h"
 #include "input.h"
 #include "output.h"
 #include "verbs.h"
 
-#include <algorithm>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -33,12 +33,6 @@ struct MakeFlags {
     void add_to(Verb& verb);
     void check(const Verb& verb);
 };
-
-const SceneSummary* find_scene(const std::string& name) {
-    for (const SceneSummary& scene : scene_list())
-        if (scene.name == name) return &scene;
-    return nullptr;
-}
 
 void MakeFlags::add_to(Verb& verb) {
     FlagGroup(verb, "Scene")
@@ -100,55 +94,6 @@ void MakeFlags::add_to(Verb& verb) {
     run.add_log_to(verb, true);
 }
 
-// Computes the missing one of width and height.
-void put_size(std::optional<int> width, std::optional<int> height, SceneSettings& scene) {
-    const auto other = [](int side, int of, int to) {
-        return std::max(1, int((std::int64_t(side) * to + of / 2) / of));
-    };
-    const int wide = scene.width, high = scene.height;
-    scene.width = width.value_or(height ? other(*height, high, wide) : wide);
-    scene.height = height.value_or(width ? other(*width, wide, high) : high);
-}
-
-void MakeFlags::check(const Verb& verb) {
-    require_argument(verb, name, "the NAME of a scene");
-    require_argument(verb, output, "-o FILE.exr");
-    run.apply();
-    overwrite.check();
-    camera.check();
-    if (!name.ends_with(".gltf") && !name.ends_with(".glb") && !find_scene(name)) {
-        std::vector<std::string> names;
-        for (const SceneSummary& known : scene_list()) names.push_back(known.name);
-        throw UsageError("there is no scene " + name + "; there are " + listed(names));
-    }
-    auto files = outputs_of({.output = output, .truth = truth, .layers = layers});
-    for (const std::string& file : files) {
-        const auto kind = kind_of_output(file);
-        if (!kind || *kind != FileKind::Exr) throw UsageError(file + ": the name must end in .exr");
-    }
-    std::sort(files.begin(), files.end());
-    if (std::adjacent_find(files.begin(), files.end()) != files.end())
-        throw UsageError("-o, --truth and --layers must be different files");
-    put_size(width, height, scene);
-    if (camera_at) scene.camera_at = ScenePoint{camera_at->x, camera_at->y, camera_at->z};
-    if (look_at) scene.look_at = ScenePoint{look_at->x, look_at->y, look_at->z};
-    scene.want_truth = !truth.empty();
-    scene.want_layers = !layers.empty();
-    scene.want_motion = motion;
-    if (const SceneSummary* known = find_scene(name); motion && (!known || known->frames == 1))
-        throw UsageError("--motion has no effect: " + name + " does not move");
-    scene.threads = run.threads;
-    refuse_both(frame.has_value(), "--frame", !frames.frames.empty(), "--frames");
-    scene.frame = frame.value_or(0);
-    const bool many = is_sequence(frames, {}, output, run);
-    if (many && frames.frames.empty())
-        throw UsageError("-o " + output + " names many frames: give --frames, such as --frames 0-11");
-    for (const std::string& file : files)
-        if (many != has_pattern(file))
-            throw UsageError(file + (many ? ": the output of many frames must contain #### or %04d"
-                                          : ": names many frames, but -o is one picture"));
-}
-
 SceneFiles files_of(const MakeFlags& flags) {
     SceneFiles files{.scene = flags.name, .settings = flags.scene};
     files.camera = flags.camera.choice();
@@ -159,6 +104,32 @@ SceneFiles files_of(const MakeFlags& flags) {
     files.existing = flags.overwrite.existing();
     files.max_memory_bytes = process_memory_bytes(flags.scene.threads);
     return files;
+}
+
+void MakeFlags::check(const Verb& verb) {
+    require_argument(verb, name, "the NAME of a scene");
+    require_argument(verb, output, "-o FILE.exr");
+    run.apply();
+    overwrite.check();
+    camera.check();
+    set_size(scene, width, height);
+    if (camera_at) scene.camera_at = ScenePoint{camera_at->x, camera_at->y, camera_at->z};
+    if (look_at) scene.look_at = ScenePoint{look_at->x, look_at->y, look_at->z};
+    scene.want_truth = !truth.empty();
+    scene.want_layers = !layers.empty();
+    scene.want_motion = motion;
+    scene.threads = run.threads;
+    const SceneFiles all = files_of(*this);
+    if (const Status fine = petzval::check(all); !fine) throw UsageError(in_flags(fine.error().message));
+    refuse_both(frame.has_value(), "--frame", !frames.frames.empty(), "--frames");
+    scene.frame = frame.value_or(0);
+    const bool many = is_sequence(frames, {}, output, run);
+    if (many && frames.frames.empty())
+        throw UsageError("-o " + output + " names many frames: give --frames, such as --frames 0-11");
+    for (const std::string& file : outputs_of(all))
+        if (many != has_pattern(file))
+            throw UsageError(file + (many ? ": the output of many frames must contain #### or %04d"
+                                          : ": names many frames, but -o is one picture"));
 }
 
 Status make_scene(const MakeFlags& flags) {

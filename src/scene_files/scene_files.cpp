@@ -193,6 +193,7 @@ FoundCamera found_camera(const Camera& camera, const std::string& origin) {
 }
 
 Result<FrameRecord> make_scene_files(const SceneFiles& files, const FrameLoopHost& host) {
+    if (const Status fine = check(files); !fine) return fine.error();
     warn_of_damage(files, host);
     return make_files(files, host);
 }

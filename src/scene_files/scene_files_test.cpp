@@ -35,6 +35,35 @@ struct SceneFilesTest : testing::Test {
     std::vector<std::string> said;
 };
 
+TEST_F(SceneFilesTest, WrongFilesAreRefusedBeforeTheWork) {
+    EXPECT_TRUE(check(files));
+    const auto message = [&](const auto& change) {
+        SceneFiles changed = files;
+        change(changed);
+        const auto made = make_scene_files(changed, host);
+        return made ? std::string() : made.error().message;
+    };
+    EXPECT_TRUE(
+        message([](auto& f) { f.scene = "post office"; }).starts_with("there is no scene post office;"));
+    EXPECT_EQ(message([](auto& f) { f.truth = "t.png"; }), "t.png: the name must end in .exr");
+    EXPECT_EQ(message([](auto& f) { f.truth = f.output; }),
+              "scene.output, scene.truth and scene.layers must be different files");
+    EXPECT_EQ(message([](auto& f) { f.scene = "rows", f.settings.want_motion = true; }),
+              "scene.want_motion has no effect: rows does not move");
+    EXPECT_TRUE(said.empty() && fs::is_empty(at("")));
+}
+
+TEST(SceneSize, OneSideKeepsTheShape) {
+    SceneSettings settings;
+    settings.width = 960, settings.height = 540;
+    set_size(settings, 64, {});
+    EXPECT_EQ(settings.height, 36);  // 64 * 9 / 16
+    set_size(settings, {}, 1);
+    EXPECT_EQ(settings.width, 2);  // 1.78
+    set_size(settings, 5, 7);
+    EXPECT_EQ(std::pair(settings.width, settings.height), std::pair(5, 7));
+}
+
 TEST_F(SceneFilesTest, FilesHoldDepthCameraAndTruth) {
     files.truth = at("t.exr");
     files.layers = at("l.exr");

@@ -32,6 +32,11 @@ struct SceneFiles {
 
 // The names that are not empty, in the order of the struct.
 PETZVAL_API std::vector<std::string> outputs_of(const SceneFiles& files);
+// Refuses unknown scenes, outputs that are not EXR or are one file, and motion of a scene that stands still.
+// make_scene_files() calls this function itself. Errors: InvalidArgument.
+PETZVAL_API Status check(const SceneFiles& files);
+// Sets the size of a picture; a side that is not given keeps the shape that the settings had.
+PETZVAL_API void set_size(SceneSettings& settings, std::optional<int> width, std::optional<int> height);
 
 // A scene's camera in the form of a file's camera; `origin`: such as "scene night".
 PETZVAL_API FoundCamera found_camera(const Camera& camera, const std::string& origin);
