@@ -2,13 +2,13 @@
 #include "petzval/focus_track.h"
 
 #include "flags/camera.h"
+#include "flags/fields.h"
 #include "flags/run_flags.h"
 #include "frames.h"
 #include "input.h"
 #include "output.h"
 #include "verbs.h"
 
-#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -47,13 +47,11 @@ void check(FocusTrackFlags& flags, const Verb& verb) {
     flags.input.check();
     if (flags.at.empty())
         throw UsageError("no pixel to keep in focus: give --at FRAME:X,Y, such as --at 1001:960,540");
-    for (const std::string& text : flags.at) flags.picks.push_back(parse_pick(text));
-    const auto by_frame = [](const FocusPick& a, const FocusPick& b) { return a.frame < b.frame; };
-    std::stable_sort(flags.picks.begin(), flags.picks.end(), by_frame);
-    for (std::size_t i = 1; i < flags.picks.size(); ++i)
-        if (flags.picks[i - 1].frame == flags.picks[i].frame)
-            throw UsageError("--at: frame " + std::to_string(flags.picks[i].frame) +
-                             " twice; a pixel without a frame stands alone");
+    std::vector<FocusPick> picks;
+    for (const std::string& text : flags.at) picks.push_back(parse_pick(text));
+    auto ordered = in_order(std::move(picks));
+    if (!ordered) throw UsageError(in_flags(ordered.error().message));
+    flags.picks = std::move(*ordered);
     require_frames(is_sequence(flags.frames, {flags.input.path, flags.input.read.depth_file}, "", flags.run));
 }
 

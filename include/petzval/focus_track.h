@@ -3,6 +3,7 @@
 
 #include "petzval/export.h"
 #include "petzval/frame_loop.h"
+#include "petzval/result.h"
 #include "petzval/shot.h"
 
 #include <span>
@@ -16,6 +17,9 @@ struct FocusPick {
     int frame = 0;
     PixelPosition pixel;
 };
+
+// The picks by frame, in the order that pixel_at() needs. Errors: InvalidArgument if two have the same frame.
+PETZVAL_API Result<std::vector<FocusPick>> in_order(std::vector<FocusPick> picks);
 
 // Distance of that object.
 struct FocusKey {

@@ -97,6 +97,18 @@ std::string axes(const PlotFrame& frame) {
 
 }  // namespace
 
+Result<std::vector<FocusPick>> in_order(std::vector<FocusPick> picks) {
+    std::stable_sort(picks.begin(), picks.end(),
+                     [](const FocusPick& a, const FocusPick& b) { return a.frame < b.frame; });
+    for (std::size_t i = 1; i < picks.size(); ++i)
+        if (picks[i - 1].frame == picks[i].frame)
+            return Error{ErrorCode::InvalidArgument,
+                         "focus.picks: frame " + std::to_string(picks[i].frame) +
+                             " twice; a pixel without a frame stands alone",
+                         "focus.picks"};
+    return picks;
+}
+
 PixelPosition pixel_at(std::span<const FocusPick> picks, int frame) {
     const auto next =
         std::find_if(picks.begin(), picks.end(), [&](const FocusPick& p) { return p.frame >= frame; });

@@ -20,6 +20,18 @@ using testing::Not;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+TEST(FocusTrack, PicksAreOrderedByFrameAndOneFrameHasOne) {
+    const auto picks = in_order({{9, {1, 1}}, {-2, {2, 2}}, {4, {3, 3}}});
+    ASSERT_TRUE(picks);
+    EXPECT_EQ((std::vector{(*picks)[0].frame, (*picks)[1].frame, (*picks)[2].frame}),
+              (std::vector{-2, 4, 9}));
+    EXPECT_EQ(pixel_at(*picks, 4).x, 3);
+    const auto twice = in_order({{4, {1, 1}}, {2, {5, 5}}, {4, {2, 2}}});
+    ASSERT_FALSE(twice);
+    EXPECT_EQ(twice.error().message, "focus.picks: frame 4 twice; a pixel without a frame stands alone");
+    EXPECT_TRUE(in_order({})->empty());
+}
+
 TEST(FocusTrack, PixelsMoveEvenlyBetweenPicksAndStayOutside) {
     const std::vector<FocusPick> picks{{10, {100, 50}}, {20, {200, 40}}, {21, {0, 0}}};
     const auto at = [&](int frame) {
