@@ -52,16 +52,16 @@ private:
 class Filler {
 public:
     Filler(const LitPicture& picture, View<const float> coc, View<const unsigned char> connected,
-           const Mixtures& mixtures, float largest, float farthest, const FillRule& rule, float white,
+           const Mixtures& mixtures, float nearest, float farthest, const FillRule& rule, float white,
            Workers& workers)
         : known_(picture, coc, mixtures, white, workers, rule.edges_to_px),
           outlines_(coc, workers),
-          textures_(known_, mixtures, rule.textures ? largest : 0, workers),
+          textures_(known_, mixtures, rule.textures ? std::max(-nearest, farthest) : 0, workers),
           coc_(coc),
           connected_(connected),
           mixtures_(mixtures),
           near_silhouettes_(coc, mixtures, workers),
-          search_(known_, coc, mixtures, largest, farthest, workers),
+          search_(known_, coc, mixtures, nearest, farthest, workers),
           every_(std::size_t(kDirections / rule.directions)),
           every_first_(std::size_t(kDirections / rule.first_directions)) {}
 
@@ -381,8 +381,8 @@ HiddenLayers fill_hidden(const LitPicture& picture, View<const float> coc,
                          float farthest_coc_px, const FillRule& rule, float white, Workers& workers) {
     const int width = coc.width(), height = coc.height();
     HiddenLayers layers;
-    const float largest = std::max(std::abs(nearest_coc_px), std::abs(farthest_coc_px));
-    const Filler filler(picture, coc, connected, mixtures, largest, farthest_coc_px, rule, white, workers);
+    const Filler filler(picture, coc, connected, mixtures, nearest_coc_px, farthest_coc_px, rule, white,
+                        workers);
     const int bands = (height + kLargestSquare - 1) / kLargestSquare;
     layers.bands.resize(std::size_t(bands));
     layers.ranges = {width, height};

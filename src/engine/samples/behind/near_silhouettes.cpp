@@ -20,7 +20,7 @@ NearSilhouettes::NearSilhouettes(View<const float> coc, const Mixtures& mixtures
             // (Two pixels of two blocks may be closer than the blocks by the length of a block's diagonal
             // and a half.)
             mixtures.for_each_in_row(y, [&](int x, const Mixture& m) {
-                add(blocks_(x / kBlock, by), {-std::abs(m.far_coc_px) - 2 * kBlock, m.far_coc_px});
+                add(blocks_(x / kBlock, by), {-m.far_coc_px - 2 * kBlock, m.far_coc_px});
             });
         }
     });

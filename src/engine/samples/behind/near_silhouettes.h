@@ -16,7 +16,7 @@ public:
 
     // False if no ray past an edge of the surface at (x, y), of radius own_px, meets another one behind it.
     bool may_hide(int x, int y, float own_px) const {
-        const float reach_px = std::abs(own_px) + kNextPx;
+        const float reach_px = kNextPx - own_px;
         const Block& b = blocks_(x / kBlock, y / kBlock);
         return b[0].beyond_px <= reach_px || b[1].beyond_px <= reach_px;
     }
@@ -26,12 +26,12 @@ public:
 
 private:
     static constexpr int kBlock = 2;  // side of a block in pixels
-    // A surface behind a silhouette: its radius, and its distance from a block less its blur.
+    // A surface behind a silhouette: its radius, and its distance from a block less that radius.
     struct Behind {
         float beyond_px = 1e9f, coc_px = -1e30f;
     };
-    // The surface whose blur comes closest, and the farthest one: pixels that lie behind the first may hide
-    // the second.
+    // The surface that comes closest by that, and the farthest one: pixels that lie behind the first may
+    // hide the second.
     using Block = std::array<Behind, 2>;
     static void add(Block& block, const Behind& behind);
     void spread(const Plane& nearest);

@@ -11,14 +11,14 @@
 namespace petzval::engine {
 
 SurfaceSearch::SurfaceSearch(const KnownSurfaces& known, View<const float> coc, const Mixtures& mixtures,
-                             float largest_px, float farthest_px, Workers& workers)
+                             float nearest_px, float farthest_px, Workers& workers)
     : known_(known), coc_(coc), farthest_(farthest_px) {
     measure_blocks(mixtures, workers);
-    lay_paths(std::max(reach_px(largest_px, farthest_px), completion_model.outline_search_px));
+    lay_paths(std::max(reach_px(nearest_px, farthest_px), completion_model.outline_search_px));
 }
 
 float SurfaceSearch::reach_px(float own_px, float behind_px) {
-    return std::abs(own_px) + std::abs(behind_px) + NearSilhouettes::kNextPx;
+    return std::abs(behind_px - own_px) + NearSilhouettes::kNextPx;
 }
 
 void SurfaceSearch::measure_blocks(const Mixtures& mixtures, Workers& workers) {

@@ -25,12 +25,12 @@ using Hits = std::array<std::array<Found, kHits>, kDirections>;
 
 class SurfaceSearch {
 public:
-    // Borrows all but the last. largest_px, farthest_px: of the frame, largest |radius| and radius farthest
-    // behind.
+    // Borrows all but the last. nearest_px, farthest_px: radii of the frame.
     SurfaceSearch(const KnownSurfaces& known, View<const float> coc_px, const Mixtures& mixtures,
-                  float largest_px, float farthest_px, Workers& workers);
+                  float nearest_px, float farthest_px, Workers& workers);
 
-    // Largest distance from a pixel at which a ray past its surface reaches the surface behind it.
+    // Largest distance from a pixel at which a ray past its surface reaches the surface behind it: a point of
+    // the lens moves the two against each other by the difference of their radii.
     static float reach_px(float own_px, float behind_px);
 
     // A pixel whose hidden surfaces are looked for, at least up to at_least_px away.
