@@ -37,8 +37,8 @@ Status check_asked(const InputFile& file, const std::string& a_format, const Rea
         return Error{ErrorCode::InvalidArgument, "read.layers is for EXR; " + path + " is " + a_format,
                      "read.layers"};
     if (options.depth_file.empty() && (options.need_depth || !options.depth_channel.empty()) && pixels)
-        return invalid_file(
-            file.path(), "has no depth channel; " + a_format + " needs a depth file, read.depth_file FILE");
+        return invalid_file(file.path(), "has no depth channel; " + a_format +
+                                             " needs another file that holds the depth (read.depth_file)");
     return Done{};
 }
 

@@ -217,7 +217,7 @@ TEST(Jpeg, WhatIsNoneOrCutOffOrTooLargeIsRefusedInOneLine) {
     ReadOptions options = without_depth();
     options.max_memory_bytes = 8000;
     EXPECT_THAT(refusal(path, options), HasSubstr("read.max_memory_bytes is too little"));
-    EXPECT_THAT(refusal(path, {}), HasSubstr("a JPEG needs a depth file"));
+    EXPECT_THAT(refusal(path, {}), HasSubstr("a JPEG needs another file that holds the depth"));
 }
 
 TEST(Jpeg, DamageIsSurvived) {
@@ -389,7 +389,7 @@ TEST(Tiff, WhatIsNotReadIsRefusedByName) {
     EXPECT_THAT(refusal(path, options), HasSubstr("more pixels than allowed"));
     options = without_depth(), options.max_memory_bytes = 8000;
     EXPECT_THAT(refusal(path, options), HasSubstr("read.max_memory_bytes is too little"));
-    EXPECT_THAT(refusal(path, {}), HasSubstr("a TIFF needs a depth file"));
+    EXPECT_THAT(refusal(path, {}), HasSubstr("a TIFF needs another file that holds the depth"));
 }
 
 TEST(Tiff, AStripThatIsShortIsDamage) {
