@@ -12,7 +12,7 @@ ALWAYS = "invalid_argument, out_of_memory, internal"
 
 def _unit(name):
     ending = name.rsplit("_", 1)[-1]
-    return UNITS.get(ending, "") if ending != name else ""
+    return "" if ending == name or "_per_" in name else UNITS.get(ending, "")
 
 
 def _cell(text):

@@ -27,6 +27,21 @@ the lens and controls of the link, and a pasted lens as text.
 """
 
 
+# Fields whose JSON is not the text of their flag.
+ACCEPTED = {
+    "focus.range_m": "`[near, far]` in metres, or `null`",
+    "lens.barrel": 'a list of `{"radius_mm": R, "distance_mm": D}`',
+    "lens.barn_doors": "four numbers: left, right, top, bottom",
+    "lens.kernel_image": "a list of one or two files",
+    "gaussian.focus_band": "0 or more, or `null`",
+    "gaussian.depth_offset": "a number, or `null`",
+    "gaussian.depth_band_range_m": "`[near, far]` in metres, or `null`",
+    "gather.blurred_px": "at least 1, or `null`",
+}
+# Fields without a flag.
+MEANING = {"plate.knee": "light up to this value was recorded unchanged; above it, the shoulder of the plate begins"}
+
+
 def fields_of(value, path=""):
     """(path, default) of every leaf."""
     if isinstance(value, dict):
@@ -59,6 +74,13 @@ class Prober:
         done = subprocess.run([self.program, *words, "-q"], cwd=self.folder, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, text=True)
         return done.returncode, done.stdout
+
+    def check_word(self, path, word):
+        """Exits if the program refuses a word that the page is about to list."""
+        (self.folder / "probe.json").write_text(json.dumps(with_field(self.look, path, word)))
+        status, said = self.run("defocus", "in.exr", "-o", "out.exr", "--look", "probe.json")
+        if status and re.search(re.escape(path) + ": (must|.* is not one of)", said):
+            sys.exit(f"look_fields: {said.strip()}")
 
     def accepted(self, path, default, flag):
         """The rule that the program states when a number is out of range, in a look or as the flag's value."""
@@ -97,9 +119,15 @@ def page_of(program):
             if name != group:
                 lines += ["", f"## {name}", "", "| field | flag | default | accepted | meaning |", "|---|---|---|---|---|"]
                 group = name
-            words = "|" in placeholder
-            accepted = ", ".join(f"`{word}`" for word in placeholder.replace("\\", "").split("|")) if words else (
-                prober.accepted(path, default, flag))
+            words = "|" in placeholder and not isinstance(default, bool)
+            said = said or MEANING.get(path, "")
+            accepted = ACCEPTED.get(path)
+            if not accepted and words:
+                listed = placeholder.replace("\\", "").split("|")
+                for word in listed:
+                    prober.check_word(path, int(word) if isinstance(default, int) else word)
+                accepted = ", ".join(f"`{word}`" for word in listed)
+            accepted = accepted or prober.accepted(path, default, flag)
             lines.append(f"| `{path}` | {f'`{flag}`' if flag else ''} | `{json.dumps(default)}` | {accepted} | {said} |")
     return "\n".join(lines).replace("\n\n\n", "\n\n") + "\n"
 

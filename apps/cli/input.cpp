@@ -17,7 +17,7 @@ void InputFlags::add_to(Verb& verb) {
                   "is standard input",
                   path)
         .value("--layer", "NAME", "colour layer or part", parse_text, read.layer)
-        .value("--view-name", "NAME", "view of a stereo file, such as left; all: every view (defocus)",
+        .value("--view-name", "NAME", "view of a stereo file, such as left; all: every view (only defocus)",
                parse_text, read.view_name);
 }
 

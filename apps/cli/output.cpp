@@ -15,7 +15,9 @@ void OverwriteFlags::add_to(Verb& verb, bool with_update) {
     FlagGroup group(verb, "Output");
     group.on("--overwrite", "replace existing files (default)", overwrite)
         .on("--no-clobber", "skip existing complete files, and succeed", no_clobber);
-    if (with_update) group.on("-u,--update", "do nothing if the output is newer than all inputs", update);
+    if (with_update)
+        group.on("-u,--update", "skip outputs that are newer than all inputs and have the same settings",
+                 update);
 }
 
 void OverwriteFlags::check() const {

@@ -39,17 +39,17 @@ typedef enum petzval_status {
     PETZVAL_READ_FAILED = 8    /* the system failed to read a file; another try may succeed */
 } petzval_status;
 
-/* The error of this thread's last failed call; "" if none failed. Lives until this thread's next failing
+/* The message of this thread's last failed call; "" if none failed. Valid until this thread's next failing
  * call. */
 PETZVAL_C_API const char* petzval_error_text(void);
-/* "invalid_argument", …; "unknown" for other numbers. Lives for ever. */
+/* The name of a status, such as "invalid_argument"; "unknown" for other numbers. Always valid. */
 PETZVAL_C_API const char* petzval_status_name(petzval_status status);
-/* Of the library that is loaded: "0.1.0". Lives for ever. */
+/* The version of the loaded library, such as "0.1.0". Always valid. */
 PETZVAL_C_API const char* petzval_version(void);
 
-/* JSON made for the caller, who closes it. Infinity is written as 1e999, unknown values are null. */
+/* JSON text that the caller closes. Infinity is written as 1e999, and unknown values are null. */
 typedef struct petzval_text petzval_text;
-PETZVAL_C_API const char* petzval_text_json(const petzval_text* text); /* lives as long as the text */
+PETZVAL_C_API const char* petzval_text_json(const petzval_text* text); /* valid until the text is closed */
 PETZVAL_C_API void petzval_text_close(petzval_text* text);
 
 /* --- Sessions: what outlives a frame
@@ -72,10 +72,10 @@ typedef struct petzval_workers {
 
 typedef struct petzval_session_settings {
     size_t size;
-    int threads;                    /* 0: all that this process may use; at most 1024 */
-    uint64_t max_memory_bytes;      /* for everything, data kept between frames included; 0: no limit */
-    const char* kernel_folder;      /* slow kernels are kept here between runs; null: nowhere */
-    const petzval_workers* workers; /* instead of `threads`; copied; null: our own */
+    int threads;                    /* at most 1024; 0: all that this process may use */
+    uint64_t max_memory_bytes;      /* limit of all memory, with data kept between frames; 0: none */
+    const char* kernel_folder;      /* stores slow kernels between runs; null: none */
+    const petzval_workers* workers; /* replace `threads`; copied; null: petzval's threads */
     /* The device that draws: "cpu", "gpu", "gpu:1", "auto" (SessionSettings::device); null: the CPU. A
      * missing or unusable device is refused when the session is opened. */
     const char* device;
@@ -84,12 +84,12 @@ typedef struct petzval_session_settings {
 /* settings may be null: all threads, no limits. Errors: unsupported. */
 PETZVAL_C_API petzval_status petzval_session_open(const petzval_session_settings* settings,
                                                   petzval_session** session);
-PETZVAL_C_API void petzval_session_close(petzval_session* session); /* no call may be under way */
+PETZVAL_C_API void petzval_session_close(petzval_session* session); /* requires: no call uses it */
 
 typedef struct petzval_usage {
     size_t size;
     uint64_t kept_bytes; /* kernels, traced rays and stars kept between frames */
-    int lenses;          /* kept with their cameras */
+    int lenses;          /* lenses kept, each with its camera */
 } petzval_usage;
 
 /* usage->size limits the members that are written. */
@@ -100,13 +100,16 @@ PETZVAL_C_API petzval_status petzval_session_trim(petzval_session* session, uint
 /* --- Names
  * ---------------------------------------------------------------------------------------------------- */
 
-/* The engines and the built-in lenses, from 0 on; null after the last. Live for ever. */
+/* The name of an engine; index 0 is the first, and null follows the last. Always valid. */
 PETZVAL_C_API const char* petzval_engine_name(int index);
+/* The name of a built-in lens, by index in the same way. */
 PETZVAL_C_API const char* petzval_lens_name(int index);
-/* The presets that existed at the first call: the user's own, then the built-in ones. Also null, with
- * petzval_error_text(), if memory runs out while they are listed; a later call tries again. */
+/* The name of a preset, by index in the same way, among those that existed at the first call: the user's,
+ * then the built-in ones. Also null, with petzval_error_text(), if memory runs out while they are listed; a
+ * later call tries again. */
 PETZVAL_C_API const char* petzval_preset_name(int index);
-/* The devices that existed at the first call: "cpu", "gpu:0", …. Starts drivers. */
+/* The name of a device, by index in the same way, among those that existed at the first call: "cpu", "gpu:0",
+ * …. The first call starts drivers. */
 PETZVAL_C_API const char* petzval_device_name(int index);
 
 /* --- Looks: all that an artist chooses
@@ -114,9 +117,9 @@ PETZVAL_C_API const char* petzval_device_name(int index);
 
 typedef struct petzval_look petzval_look;
 
-PETZVAL_C_API petzval_status petzval_look_new(petzval_look** look); /* the defaults */
-/* A look as `petzval defocus --save-look` writes it; its key "preset" names a look to start from. Or a link
- * of the lens lab, the URL or its fragment. Errors: invalid_file. */
+PETZVAL_C_API petzval_status petzval_look_new(petzval_look** look); /* a look with the defaults */
+/* A look as `petzval defocus --save-look` writes it; its key "preset" names a look to start from. `json`
+ * may also be a link of the lens lab, or the part after its #. Errors: invalid_file. */
 PETZVAL_C_API petzval_status petzval_look_from_json(const char* json, petzval_look** look);
 /* A preset by name: the user's own, NAME.json in $PETZVAL_PRESETS or ~/.config/petzval/presets, otherwise a
  * built-in one. Errors: invalid_argument that lists the names; invalid_file for a broken file. */
@@ -196,29 +199,30 @@ typedef struct petzval_layer {
     int is_matte;
     /* The lamp of this light: "daylight", "sodium", "mercury", "neon", "led"; null: the lens's own. */
     const char* spectrum;
-    const petzval_pixels* out; /* written with the frame, in its size; null: not wanted */
+    const petzval_pixels* out; /* receives the result, in the size of the frame; null: dropped */
 } petzval_layer;
 
 /* The rendered input. It is only read. */
 typedef struct petzval_shot {
     size_t size;
     const petzval_pixels* colour; /* scene-linear, premultiplied */
-    const petzval_plane* depth_m; /* planar metres, +infinity for a miss; or */
-    const petzval_plane*
-        radii_px; /* signed radii of the circle of confusion, + behind focus. Give one of the two */
-    const petzval_camera* camera;             /* may be null with radii_px and an ideal lens */
-    petzval_rect display_window, data_window; /* both empty: the picture is the frame */
-    double pixel_aspect;                      /* width / height of a pixel; 0: 1 */
-    /* Optional, of the picture's size; null: none. */
-    const petzval_deep* deep;    /* all samples of a deep picture; colour and depth are its front view */
-    const petzval_deep* behind;  /* hidden layers: surfaces behind the visible ones */
-    const petzval_deep* holdout; /* a matte that is not blurred and dims light behind it */
-    const petzval_light* lights;
+    const petzval_plane* depth_m; /* planar metres, +infinity for a miss; null if radii_px is given */
+    /* Signed radii of the circle of confusion, + behind focus; null if depth_m is given. */
+    const petzval_plane* radii_px;
+    const petzval_camera* camera; /* may be null with radii_px and an ideal lens */
+    petzval_rect display_window;  /* the frame; both windows empty: the picture is the frame */
+    petzval_rect data_window;     /* the place of the picture */
+    double pixel_aspect;          /* width / height of a pixel; 0: 1 */
+    /* All samples of a deep picture, of the picture's size; colour and depth are its front view. Null: none.
+     */
+    const petzval_deep* deep;
+    const petzval_deep* behind;  /* surfaces behind the visible ones, of the picture's size; null: none */
+    const petzval_deep* holdout; /* a matte that is not blurred and dims light behind it; null: none */
+    const petzval_light* lights; /* lights for the engine "sprites" */
     uint64_t light_count;
-    /* Limits the effect, of the picture's size: 1 blurred, 0 unchanged, mixed in between; null: everywhere.
-     * */
+    /* Mixes the blurred picture (1) with the original (0); of the picture's size. Null: 1 everywhere. */
     const petzval_plane* mask;
-    const petzval_layer* const* layers; /* layer_count of them */
+    const petzval_layer* const* layers; /* more pictures to blur; layer_count pointers */
     uint64_t layer_count;
 } petzval_shot;
 
@@ -228,8 +232,8 @@ typedef struct petzval_shot {
 typedef struct petzval_control {
     size_t size;
     void* host;
-    /* Share done, 0…1, never falling, one call at a time, from any thread; 0 returned cancels. May be null.
-     */
+    /* Reports the fraction done, 0…1, which never falls; one call at a time, from any thread. A returned 0
+     * cancels. May be null. */
     int (*progress)(void* host, double done);
     /* Called often, by any thread at any time: 1 cancels. May be null. */
     int (*cancelled)(void* host);

@@ -12,30 +12,28 @@
 extern "C" {
 #endif
 
-/* The error of this thread's last failing call of this library; "" if none failed. Lives until the next.
- * */
+/* The message of this thread's last failed call to this library; "" if none failed. Valid until the next
+ * failing call. */
 PETZVAL_C_API const char* petzval_files_error_text(void);
 
 typedef struct petzval_shot_source {
     size_t size;
-    const char* path; /* EXR, PNG, JPEG or TIFF */
-    /* Names as --layer, --view-name, --depth, --depth-channel and --depth-kind of the command line take them;
-     * null: detected. */
-    const char* layer;
-    const char* view_name;
-    const char* depth_file;
-    const char* depth_channel;
-    const char* depth_kind;
-    double depth_unit_m; /* metres per unit of depth; 0: 1 */
-    const char* behind;  /* files of hidden layers, a holdout, a mask and lights; null: none */
-    const char* holdout;
-    const char* mask;
-    const char* lights;
-    const char* const* layers; /* layer_count names of colour layers that are blurred as well, or "all" */
+    const char* path;          /* EXR, PNG, JPEG or TIFF */
+    const char* layer;         /* as --layer of the command line; null: detected */
+    const char* view_name;     /* as --view-name; null: detected */
+    const char* depth_file;    /* as --depth; null: the file at `path` */
+    const char* depth_channel; /* as --depth-channel; null: detected */
+    const char* depth_kind;    /* as --depth-kind; null: detected */
+    double depth_unit_m;       /* metres per unit of depth; 0: 1 */
+    const char* behind;        /* file of a clean plate or of hidden layers, as --plate; null: none */
+    const char* holdout;       /* file, as --holdout; null: none */
+    const char* mask;          /* file, as --mask; null: none */
+    const char* lights;        /* file, as --points; null: none */
+    const char* const* layers; /* layer_count names of layers to blur as well, or "all" */
     uint64_t layer_count;
     const petzval_camera* camera; /* numbers other than 0 override those of the file; may be null */
-    int threads;                  /* 0: all */
-    uint64_t max_memory_bytes;    /* of the pixels; 0: no limit */
+    int threads;                  /* 0: all that this process may use */
+    uint64_t max_memory_bytes;    /* limit of the pixels; 0: none */
 } petzval_shot_source;
 
 /* A shot in memory of this library. */
@@ -44,22 +42,22 @@ typedef struct petzval_shot_file petzval_shot_file;
 /* Errors: invalid_file, unsupported. */
 PETZVAL_C_API petzval_status petzval_files_read_shot(const petzval_shot_source* source,
                                                      petzval_shot_file** file);
-/* A file by its headers, pixels unread: petzval_files_json() has its parts, channels, windows, views, camera
+/* Reads the headers of a file only: petzval_files_json() has its parts, channels, windows, views, camera
  * numbers with their origin, and warnings; petzval_files_shot() has no pictures. Errors: invalid_file. */
 PETZVAL_C_API petzval_status petzval_files_inspect(const char* path, petzval_shot_file** file);
 /* A built-in scene (as `petzval scene list` names them) of width x height pixels and its hidden
  * layers. truth_samples: lens samples per pixel for the truth; 0: no truth. Errors: unsupported. */
 PETZVAL_C_API petzval_status petzval_files_make_scene(const char* name, int width, int height, uint64_t seed,
                                                       int truth_samples, petzval_shot_file** file);
-/* The shot, for petzval_defocus(). Its layers have no `out`: a host gives separate layers that point at the
- * same colour. Lives as long as the file. */
+/* The shot, for petzval_defocus(). Its layers have no `out`: to receive them, pass copies of the layers with
+ * `out` set. Valid until the file is closed. */
 PETZVAL_C_API const petzval_shot* petzval_files_shot(const petzval_shot_file* file);
-/* Truth of a scene; null where there is none. Lives as long as the file. */
+/* The truth of a scene, or null. Valid until the file is closed. */
 PETZVAL_C_API const petzval_pixels* petzval_files_truth(const petzval_shot_file* file);
 /* {"detected", "warnings", "layers", "views", "has_alpha", "display_referred"}. Lives as long as the file. */
 PETZVAL_C_API const char* petzval_files_json(const petzval_shot_file* file);
 /* Writes an EXR: `colour` and the layers' pictures (layer_count of them, in the shot's order; 0: as read)
- * instead of those of the input, everything else as the input has it. The file is complete or untouched.
+ * replace those of the input; everything else is the input's. The file is complete or untouched.
  * Errors: invalid_file, output_failed. */
 PETZVAL_C_API petzval_status petzval_files_write_like(const petzval_shot_file* file,
                                                       const petzval_pixels* colour,

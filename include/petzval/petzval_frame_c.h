@@ -26,11 +26,12 @@ typedef struct petzval_codes {
     size_t size;
     void* data; /* uint8_t where bits is 8, uint16_t where it is 16 */
     ptrdiff_t row_stride;
-    int width, height;               /* of the window */
-    int bits;                        /* 8 or 16; 0: 8 */
-    double exposure_stops, contrast; /* a contrast of 0: 1 */
-    const char* tone;                /* "none", "reinhard", "filmic"; null: "filmic" */
-    const char* transfer;            /* "srgb", "gamma22", "gamma20", "linear"; null: "srgb" */
+    int width, height; /* of the window */
+    int bits;          /* 8 or 16; 0: 8 */
+    double exposure_stops;
+    double contrast;      /* 0: 1 */
+    const char* tone;     /* "none", "reinhard", "filmic"; null: "filmic" */
+    const char* transfer; /* "srgb", "gamma22", "gamma20", "linear"; null: "srgb" */
     int no_dither;
     /* The window of the codes, in pixels like the shot's windows; black where nothing was made. Empty: the
      * display window. */

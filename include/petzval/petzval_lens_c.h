@@ -24,7 +24,7 @@ PETZVAL_C_API petzval_status petzval_lens_from_memory(const void* bytes, size_t 
 PETZVAL_C_API petzval_status petzval_lens_with(const petzval_lens* lens, const petzval_look* look,
                                                petzval_lens** changed);
 PETZVAL_C_API void petzval_lens_close(petzval_lens* lens);
-/* As it was opened. Lives as long as the lens. */
+/* The name with which the lens was opened. Valid until the lens is closed. */
 PETZVAL_C_API const char* petzval_lens_title(const petzval_lens* lens);
 
 /* Frames with this look use this lens and open no file: lens.name becomes its name; all other fields are
@@ -36,7 +36,7 @@ typedef struct petzval_lens_mount {
     size_t size;
     /* Null, or numbers that are 0: the lens's own camera, focused at infinity. */
     const petzval_camera* camera;
-    int width, height;   /* of the picture; both 0: 1920 x 1080 */
+    int width, height;   /* picture size; both 0: 1920 x 1080 */
     double pixel_aspect; /* width / height of a pixel; 0: 1 */
 } petzval_lens_mount;
 
@@ -66,8 +66,8 @@ typedef struct petzval_disc {
 
 typedef struct petzval_disc_report {
     size_t size;
-    int needed_px;     /* sides of the smallest square that holds all of the disc, odd */
-    double lost_share; /* of the light, outside of a smaller picture */
+    int needed_px;     /* side of the smallest square that holds the whole disc; odd */
+    double lost_share; /* fraction of the light outside a picture that is smaller than this */
 } petzval_disc_report;
 
 /* Side of a square that certainly contains the disc, at least its needed_px; no disc is made. */
@@ -86,8 +86,8 @@ typedef struct petzval_texture {
     int columns;           /* 2…16384; 0: 512 */
     double largest_coc_px; /* the first column has this radius in front of focus, the last behind; 0: 64 */
     int even;              /* 0: radii grow with the square of the distance from the middle column */
-    int rows_per_px;       /* 1…16; 0: 4 */
-    int raw;               /* as of a disc */
+    int rows_per_px;       /* rows in a pixel of the disc, 1…16; 0: 4 */
+    int raw;               /* 1: keeps colours outside the gamut */
     int view;              /* 1: each column divided by its brightest channel, to be looked at */
     int threads;           /* 0: all that this process may use */
 } petzval_texture;

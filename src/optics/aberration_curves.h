@@ -1,8 +1,8 @@
 // Longitudinal aberration curves: where, along the axis, the light of each pupil zone and wavelength meets.
 //
-// Following M. Kawase, "Rendering lecture 2.0", CEDEC 2008: one curve per wavelength of focus shift against
-// pupil height describes what spherical aberration and axial colour do to the blur of a lens. Shift and
-// height are in units of the focal length, so that a lens scales to any focal length and format.
+// Following M. Kawase, "Renderist training course 2.0", CEDEC 2008: one curve per wavelength of focus shift
+// against pupil height describes what spherical aberration and axial colour do to the blur of a lens. Shift
+// and height are in units of the focal length, so that a lens scales to any focal length and format.
 #pragma once
 
 #include "petzval/result.h"

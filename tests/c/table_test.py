@@ -27,6 +27,8 @@ typedef struct box {
     /* Called once. */
     int (*lit)(void* host, double share);
     void *r, *g;
+    int holes_per_px;
+    double rim_px;
 } box;
 /* Opens a lamp. Errors: unsupported. */
 PETZVAL_C_API petzval_status petzval_lamp_open(const box* from, double reach_mm, lamp** made);
@@ -49,7 +51,8 @@ class ATable(unittest.TestCase):
         self.assertEqual(api.handles[0].name, "lamp")
         fields = [(f.name, f.type, f.doc) for f in api.structs[0].fields]
         self.assertEqual(fields, [("size", "size_t", ""), ("width", "int", "in cells"), ("height", "int", "in cells"),
-                                  ("lit", "function", "Called once."), ("r", "void*", ""), ("g", "void*", "")])
+                                  ("lit", "function", "Called once."), ("r", "void*", ""), ("g", "void*", ""),
+                                  ("holes_per_px", "int", ""), ("rim_px", "double", "")])
         opened, closed = api.functions
         self.assertEqual([a.type for a in opened.arguments], ["const box*", "double", "lamp**"])
         self.assertEqual(closed.doc, "null is fine")
@@ -57,6 +60,8 @@ class ATable(unittest.TestCase):
     def test_the_page_names_units_and_errors(self):
         page = c_api_written.page(table_of(HEADER))
         self.assertIn("Units: `reach_mm` in mm.", page)
+        self.assertIn("| `rim_px` | `double` | pixels |", page)
+        self.assertIn("| `holes_per_px` | `int` |  |", page)
         self.assertIn("Errors: invalid_argument, out_of_memory, internal, unsupported.", page)
 
     def test_a_declaration_of_another_form_is_refused(self):

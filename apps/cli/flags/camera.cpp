@@ -44,7 +44,7 @@ void CameraFlags::add_to(Verb& verb, const std::string& owner, bool may_be_open)
     FlagGroup(verb, owner == "lens" ? "" : heading)
         .value("--breathing,--image-scale", "off|on",
                "focus breathing: off, sensor one focal length behind the pinhole, as renderers place it "
-               "(default); on, thin-lens image distance; also rendered and thin-lens",
+               "(default); on, thin-lens image distance; older names: rendered, thin-lens",
                parse_breathing, image_scale);
 }
 

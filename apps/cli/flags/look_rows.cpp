@@ -153,7 +153,7 @@ std::vector<LookRow> rows_of_lenses() {
         row("Lens character", "--wavelengths", "lens.wavelengths", value("N", parse_count),
             "number of spectral bands (default: as many as needed)"),
         row("Lens character", "--wave", "lens.wave", nothing(),
-            "diffraction: rings in discs of small sensors, spikes of blades; slow"),
+            "diffraction: rings in discs of small sensors, spikes of blades; slow on small sensors"),
     };
 }
 
