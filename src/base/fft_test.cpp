@@ -16,7 +16,7 @@ using Complex = std::complex<float>;
 std::vector<Complex> field_of(int n) {
     std::vector<Complex> field;
     for (int i = 0; i < n * n; ++i)
-        field.emplace_back(float(std::sin(12.9898 * i + i * i)), float(std::cos(78.233 * i + 1)));
+        field.emplace_back(float(std::sin(12.9898 * i + double(i) * i)), float(std::cos(78.233 * i + 1)));
     return field;
 }
 
