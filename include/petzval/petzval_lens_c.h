@@ -12,19 +12,19 @@ extern "C" {
 
 typedef struct petzval_lens petzval_lens;
 
-/* A built-in lens, by its name, or a lens file, by its path. The file is read here and never again. Errors:
- * invalid_file. */
+/* Opens a built-in lens by its name, or a lens file by its path. The file is read now and never again.
+ * Errors: invalid_file. */
 PETZVAL_C_API petzval_status petzval_lens_open(const char* name_or_file, petzval_lens** lens);
-/* The content of a lens file in any format that petzval reads, as JSON text. `name` stands for it in messages
- * and reports; null: "lens". Errors: invalid_file. */
+/* Opens the content of a lens file, in any format that petzval reads. Messages and reports call the lens
+ * `name`; null: "lens". Errors: invalid_file. */
 PETZVAL_C_API petzval_status petzval_lens_from_memory(const void* bytes, size_t byte_count, const char* name,
                                                       petzval_lens** lens);
-/* The same lens with a look's options: all fields of the look's "lens" except the name (blades, cat's eye,
- * added aberrations, light, …). No file is read. Errors: unsupported. */
+/* Opens the same lens with a look's options: all fields of the look's "lens" except the name (blades, cat's
+ * eye, added aberrations, light, …). No file is read. Errors: unsupported. */
 PETZVAL_C_API petzval_status petzval_lens_with(const petzval_lens* lens, const petzval_look* look,
                                                petzval_lens** changed);
 PETZVAL_C_API void petzval_lens_close(petzval_lens* lens);
-/* The name with which the lens was opened. Valid until the lens is closed. */
+/* Returns the name with which the lens was opened. It is valid until the lens is closed. */
 PETZVAL_C_API const char* petzval_lens_title(const petzval_lens* lens);
 
 /* Frames with this look use this lens and open no file: lens.name becomes its name; all other fields are
@@ -40,17 +40,17 @@ typedef struct petzval_lens_mount {
     double pixel_aspect; /* width / height of a pixel; 0: 1 */
 } petzval_lens_mount;
 
-/* Every built-in lens: an array of {"name", "title", "class", "model", "year", …}. */
+/* Lists every built-in lens: an array of {"name", "title", "class", "model", "year", …}. */
 PETZVAL_C_API petzval_status petzval_lens_list(petzval_text** lenses);
-/* First-order numbers, Seidel sums, aberrations on the axis and over the field: as in `petzval lens show
- * --json`. */
+/* Writes first-order numbers, Seidel sums, and aberrations on the axis and over the field, as `petzval lens
+ * show --json` does. */
 PETZVAL_C_API petzval_status petzval_lens_facts(const petzval_lens* lens, petzval_text** facts);
-/* The curves among the facts: "longitudinal_aberration_mm" and "field". */
+/* Writes only the curves among the facts: "longitudinal_aberration_mm" and "field". */
 PETZVAL_C_API petzval_status petzval_lens_curves(const petzval_lens* lens, petzval_text** curves);
-/* The lens cut open, with rays of one point of light. The point lies at depth_m (metres, +infinity allowed)
- * and at field_x, field_y in -1…1 of the half diagonal, x right, y up. Member "glass" holds outlines; member
- * "rays" holds paths, each with the place where it lands in the disc. The grid over the pupil is rays_across
- * wide, 3…101. The mount may be null. */
+/* Writes the lens cut open, with the rays of one point of light. The point lies at depth_m (metres, +infinity
+ * allowed) and at field_x, field_y in -1…1 of the half diagonal, x right, y up. Member "glass" holds
+ * outlines; member "rays" holds paths, each with the place where it lands in the disc. The grid over the
+ * pupil is rays_across wide, 3…101. The mount may be null. */
 PETZVAL_C_API petzval_status petzval_lens_section(const petzval_lens* lens, const petzval_lens_mount* mount,
                                                   double depth_m, double field_x, double field_y,
                                                   int rays_across, petzval_text** section);
@@ -70,7 +70,8 @@ typedef struct petzval_disc_report {
     double lost_share; /* fraction of the light outside a picture that is smaller than this */
 } petzval_disc_report;
 
-/* Side of a square that certainly contains the disc, at least its needed_px; no disc is made. */
+/* Finds the side of a square that certainly contains the disc, at least its needed_px, without making the
+ * disc. */
 PETZVAL_C_API petzval_status petzval_lens_disc_size(const petzval_lens* lens, const petzval_lens_mount* mount,
                                                     const petzval_disc* disc, int* size_px);
 /* Writes the disc into `out`, a square of an odd number of pixels; the source is in the middle one. a is the
@@ -92,7 +93,7 @@ typedef struct petzval_texture {
     int threads;           /* 0: all that this process may use */
 } petzval_texture;
 
-/* Number of rows that certainly contain the texture; no texture is made. */
+/* Finds a number of rows that certainly contain the texture, without making the texture. */
 PETZVAL_C_API petzval_status petzval_lens_texture_rows(const petzval_lens* lens,
                                                        const petzval_lens_mount* mount,
                                                        const petzval_texture* texture, int* rows);
