@@ -2,8 +2,8 @@
 
 Usage: ./dev bench pull [--frames 24] [--width 960] [--lenses doublet,petzval-laikin] [--engines scatter,gather]. The built-in
 night. Focus moves from 2 m to 6 m, evenly in dioptres; then it stays at 2 m while five blades turn. CPU seconds are user +
-system of all processes; runs of the program read and write their frame, the session reads once and writes nothing: the column
-of computing is what of a run is neither, as its own report says.
+system of all processes. Runs of the program read and write their frame; the session reads once and writes nothing. So the
+column of computing leaves out the time that the report of a run gives for reading and writing.
 """
 import argparse
 import itertools
