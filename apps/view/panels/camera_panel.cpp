@@ -32,9 +32,13 @@ void own_cameras(App& app) {
 void camera_number(App& app, const char* field, const char* label, const std::optional<FoundNumber>& found,
                    const Ends& ends) {
     const bool assumed = is_assumed(found);
+    const std::string name = std::string("camera.") + field;
+    const auto origin = [&] {  // a field names itself as the origin of its value
+        return found->origin == name ? "set by hand" : "from: " + found->origin;
+    };
     if (assumed) ImGui::PushStyleColor(ImGuiCol_Text, kAmber);
-    slider_widget(app, std::string("camera.") + field, assumed ? std::string(label) + " (assumed)" : label,
-                  ends, found ? "from: " + found->origin + "; right click: as in the file" : "");
+    slider_widget(app, name, assumed ? std::string(label) + " (assumed)" : label, ends,
+                  found ? origin() + "; right click: as in the file" : "");
     if (assumed) ImGui::PopStyleColor();
 }
 
