@@ -48,7 +48,7 @@ endforeach()
 petzval_component(petzval_lib_files PACKAGE petzval-files HEADERS ${headers}/files.h ${headers}/lens_report.h
                   ${headers}/look_file.h ${headers}/output.h ${headers}/shot.h ${headers}/frames.h ${headers}/track.h
                   ${headers}/focus_track.h
-                  REQUIRES petzval OpenEXR libpng libdeflate libisal ${raster_modules}
+                  REQUIRES petzval OpenEXR libpng libdeflate ${raster_modules}
                   DESCRIPTION "EXR, PNG, JPEG and TIFF for petzval")
 foreach(folder farm reports shots)
   file(GLOB folder_headers CONFIGURE_DEPENDS ${headers}/${folder}/*.h)

@@ -1,17 +1,16 @@
 #include "files/exr/packing.h"
 
 #include <algorithm>
-#include <isa-l/igzip_lib.h>
 #include <libdeflate.h>
 #include <new>
 
 namespace petzval {
 namespace {
 
-// ISA-L's level 2 packs 99.5 MB of a 4K night to 34.0 MB in 0.15 s of one thread. libdeflate's level 1: 32.5
-// MB in 0.39 s; zlib at OpenEXR's level: 32.1 MB in 1.36 s. More room for tokens gives 34.2 MB in 0.14 s,
-// because blocks grow beyond similar data.
-constexpr std::uint32_t kLevel = 2, kRoom = ISAL_DEF_LVL2_SMALL;
+// libdeflate's level 1 packs 99.5 MB of a 4K night to 32.5 MB in 0.39 s of one thread; zlib at OpenEXR's
+// level: 32.1 MB in 1.36 s. ISA-L 2.30 needs 0.15 s, but packs equal bytes otherwise once in some thousand
+// files.
+constexpr int kLevel = 1;
 
 struct FreeDecompressor {
     void operator()(libdeflate_decompressor* d) const { libdeflate_free_decompressor(d); }
@@ -80,18 +79,17 @@ std::optional<std::size_t> unpack_zlib(std::span<const unsigned char> packed, st
 
 }  // namespace
 
+void FreeCompressor::operator()(libdeflate_compressor* c) const { libdeflate_free_compressor(c); }
+
 std::vector<unsigned char> zipped(std::span<const unsigned char> raw, ZipBuffers& buffers) {
-    buffers.predicted.resize(raw.size()), buffers.packed.resize(raw.size()), buffers.room.resize(kRoom);
+    if (!buffers.compressor) buffers.compressor.reset(libdeflate_alloc_compressor(kLevel));
+    if (!buffers.compressor) throw std::bad_alloc();
+    buffers.predicted.resize(raw.size()), buffers.packed.resize(raw.size());
     predict(raw, buffers.predicted.bytes());
-    // ISA-L 2.30 reads hist_bits, which its initialiser leaves as it was: equal pixels packed differently.
-    isal_zstream stream{};
-    isal_deflate_stateless_init(&stream);
-    stream.level = kLevel, stream.level_buf = buffers.room.data(), stream.level_buf_size = kRoom;
-    stream.gzip_flag = IGZIP_ZLIB, stream.end_of_stream = 1;
-    stream.next_in = buffers.predicted.data(), stream.avail_in = std::uint32_t(raw.size());
-    stream.next_out = buffers.packed.data(), stream.avail_out = std::uint32_t(raw.size());
-    const bool fits = isal_deflate_stateless(&stream) == COMP_OK && stream.total_out < raw.size();
-    const auto from = fits ? std::span<const unsigned char>(buffers.packed.data(), stream.total_out) : raw;
+    const std::size_t size = libdeflate_zlib_compress(buffers.compressor.get(), buffers.predicted.data(),
+                                                      raw.size(), buffers.packed.data(), raw.size());
+    const bool is_smaller = size > 0 && size < raw.size();
+    const auto from = is_smaller ? std::span<const unsigned char>(buffers.packed.data(), size) : raw;
     return {from.begin(), from.end()};
 }
 

@@ -1,6 +1,6 @@
 // Bytes of EXR chunks, packed and unpacked by the formats that lose nothing and are not OpenEXR's own: none,
-// RLE, ZIPS and ZIP ("OpenEXR Technical Introduction"; zlib's format is RFC 1950). Packed by ISA-L, in a
-// tenth of the time of zlib, and unpacked by libdeflate, in a third.
+// RLE, ZIPS and ZIP ("OpenEXR Technical Introduction"; zlib's format is RFC 1950), by libdeflate in a
+// third of the time of zlib.
 #pragma once
 
 #include <algorithm>
@@ -11,6 +11,8 @@
 #include <vector>
 
 #include <OpenEXR/ImfCompression.h>
+
+struct libdeflate_compressor;
 
 namespace petzval {
 
@@ -33,9 +35,13 @@ private:
 // True if unpacked() supports the format.
 inline bool is_plain_packing(Imf::Compression compression) { return compression <= Imf::ZIP_COMPRESSION; }
 
-// Scratch memory of one thread that packs: whatever was in it.
+struct FreeCompressor {
+    void operator()(libdeflate_compressor* c) const;
+};
+// What one thread needs to pack: whatever was in it.
 struct ZipBuffers {
-    RawBytes predicted, packed, room;
+    RawBytes predicted, packed;
+    std::unique_ptr<libdeflate_compressor, FreeCompressor> compressor;
 };
 // Packed as ZIP, or as they are where that is not smaller: readers know it by the size. Fewer than 2^32.
 std::vector<unsigned char> zipped(std::span<const unsigned char> raw, ZipBuffers& buffers);

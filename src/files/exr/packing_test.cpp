@@ -1,7 +1,6 @@
 // Packed data unpacks to the same bytes, by petzval and by OpenEXR; damaged data never writes beyond its end.
 #include "files/exr/packing.h"
 
-#include <cstdint>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -45,23 +44,6 @@ TEST(ExrPacking, WhatWasPackedBeforeChangesNoByte) {
     ZipBuffers fresh, used;
     petzval::zipped(noise, used);
     EXPECT_EQ(petzval::zipped(raw, used), petzval::zipped(raw, fresh));
-}
-
-// Leaves `value` all over the stack on which the next function places its variables.
-[[gnu::noinline]] void fill_stack(std::uint16_t value) {
-    volatile std::uint16_t left_behind[100000];
-    for (volatile std::uint16_t& place : left_behind) place = value;
-}
-
-TEST(ExrPacking, WhatTheStackHeldBeforeChangesNoByte) {
-    const Bytes raw = smooth(65537);
-    ZipBuffers buffers;
-    fill_stack(0);
-    const Bytes first = petzval::zipped(raw, buffers);
-    for (std::uint16_t value = 1; value < 16; ++value) {
-        fill_stack(value);
-        EXPECT_EQ(petzval::zipped(raw, buffers), first) << value;
-    }
 }
 
 TEST(ExrPacking, WhatIsNotSmallerStaysAsItIs) {
