@@ -46,6 +46,15 @@ class Checks(unittest.TestCase):
         self.assert_found(links, sound | start, "no link to b.md")
         self.assert_clean(links, sound | start | {"docs/README.md": "\n## Pages\n[a](a.md) [b](b.md)\n"})
 
+    def test_a_page_that_names_a_source_which_does_not_exist_is_found(self):
+        links = "../tests/docs/check_links.py"
+        files = {"docs/a.md": "\n", "src/engine/waist/plan.cpp": "", "lenses/a.json": "{}"}
+        sound = "`src/engine/waist/plan.cpp` `engine/waist/plan` `engine/*/plan.cpp` `lenses/*.json` `src/engine/x/` `job/left`\n"
+        self.assert_clean(links, files | {"docs/a.md": sound})
+        for path in ("src/engine/waist/gone.cpp", "engine/gone", "lenses/b.json", "engine/waist/gone.*"):
+            self.assert_found(links, files | {"docs/a.md": f"`{path}`\n"}, f"docs/a.md: `{path}` is not in the repository")
+        self.assert_clean(links, files | {"docs/journal/b.md": "`engine/gone`\n"})
+
     def test_an_upward_include_is_found(self):
         self.assert_found("check_layers.py", {"src/image/a.cpp": '#include "engine/b.h"\n'}, "src/image/a.cpp:1")
         self.assert_clean("check_layers.py", {"src/engine/waist/a.cpp": '#include "image/b.h"\n'})
