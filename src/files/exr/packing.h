@@ -38,7 +38,7 @@ inline bool is_plain_packing(Imf::Compression compression) { return compression 
 struct FreeCompressor {
     void operator()(libdeflate_compressor* c) const;
 };
-// What one thread needs to pack: whatever was in it.
+// Buffers of one thread that packs. A call overwrites their contents.
 struct ZipBuffers {
     RawBytes predicted, packed;
     std::unique_ptr<libdeflate_compressor, FreeCompressor> compressor;
