@@ -8,6 +8,7 @@ import os
 import pathlib
 import sys
 import tempfile
+import types
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
@@ -17,8 +18,11 @@ import numpy as np  # noqa: E402
 import installed  # noqa: E402
 import scene as scenes  # noqa: E402
 
-camera, exr, job, versions, view_layer_of = (installed.part("camera"), installed.part("exr"), installed.part("job"),
-                                             installed.part("versions"), lambda scene: scene.view_layers[0])
+camera, exr, job, operators, versions = (installed.part(name) for name in ("camera", "exr", "job", "operators", "versions"))
+
+
+def view_layer_of(scene):
+    return scene.view_layers[0]
 
 
 def result():
@@ -134,6 +138,11 @@ class Stills(InBlender):
         again = result()
         np.testing.assert_array_equal(again, self.still())
 
+    def test_a_share_of_the_size_is_the_one_that_blender_renders(self):
+        render = self.scene.render
+        render.resolution_x, render.resolution_y, render.resolution_percentage = 160, 100, 29
+        self.assertEqual(self.still().shape, (29, 46, 4))
+
     def test_it_appears_in_the_compositor_and_is_written(self):
         self.scene.petzval_lens.to_compositor = True
         self.still(write_still=True)
@@ -156,6 +165,36 @@ class Cameras(InBlender):
                     wide = max(c.x for c in corners) - min(c.x for c in corners)
                     self.assertAlmostEqual(numbers(self.scene).sensor_width_mm, wide * data.lens / -corners[0].z,
                                            delta=1e-3, msg=f"{fit} {size} {aspect}")
+
+    def test_a_shift_moves_the_axis_as_in_blenders_own_frustum(self):
+        data, render = self.scene.camera.data, self.scene.render
+        data.sensor_width, data.sensor_height, data.shift_x, data.shift_y = 30, 20, 0.1, -0.05
+        for fit in ("AUTO", "HORIZONTAL", "VERTICAL"):
+            for width, height in ((1600, 900), (900, 1600)):
+                for aspect in ((1, 1), (2, 1), (1, 1.5)):
+                    data.sensor_fit, render.resolution_x, render.resolution_y = fit, width, height
+                    render.pixel_aspect_x, render.pixel_aspect_y = aspect
+                    x, y = (sorted(getattr(corner, axis) for corner in data.view_frame(scene=self.scene)) for axis in "xy")
+                    middle = (x[0] + x[3]) / 2 / (x[3] - x[0]) * width, -(y[0] + y[3]) / 2 / (y[3] - y[0]) * height
+                    np.testing.assert_allclose(numbers(self.scene).shift_px, middle, atol=0.51, err_msg=f"{fit} {aspect}")
+
+    def test_the_focus_bone_counts_as_posed_in_each_frame(self):
+        rig = bpy.data.objects.new("rig", bpy.data.armatures.new("rig"))
+        self.scene.collection.objects.link(rig)
+        bpy.context.view_layer.objects.active = rig
+        bpy.ops.object.mode_set(mode="EDIT")
+        bone = rig.data.edit_bones.new("tip")
+        bone.head, bone.tail = (0, 4, 0), (0, 5, 0)
+        bpy.ops.object.mode_set(mode="OBJECT")
+        rig.location = (0, 1, 0)
+        dof = self.scene.camera.data.dof
+        dof.focus_object, dof.focus_subtarget = rig, "tip"
+        for frame, y in ((1, 0), (11, 2)):
+            rig.pose.bones["tip"].location = (0, y, 0)
+            rig.pose.bones["tip"].keyframe_insert("location", frame=frame)
+        for frame, distance in ((1, 5), (11, 7)):
+            self.scene.frame_set(frame)
+            self.assertAlmostEqual(numbers(self.scene).focus_distance_m, distance, delta=1e-5)
 
     def test_the_focus_object_counts_as_evaluated_in_each_frame(self):
         carrier, target = (bpy.data.objects.new(name, None) for name in ("carrier", "target"))
@@ -205,6 +244,35 @@ class Animations(InBlender):
         bpy.ops.petzval_lens.animation()
         self.assertEqual(pathlib.Path(self.path(names[1])).read_bytes(), b"mine")
 
+    def test_a_cancelled_animation_keeps_its_frames_and_restores_the_settings(self):
+        scene, layer = self.scene, view_layer_of(self.scene)
+        scene.frame_start, scene.frame_end = 1, 5
+        scene.frame_set(3)
+        watched = [(scene.camera.data.dof, "use_dof"), (layer, "use_pass_z"), (scene.render, "filepath"),
+                   (scene.render.image_settings, "file_format"), (scene, "frame_current")]
+        before = [getattr(*where) for where in watched]
+        for kind, finished in ((job.Render, ["out_0001.png", "out_0002.png"]), (job.Defocus, ["out_0001.png"])):
+            steps = job.animation(scene, layer, scene.petzval_lens.wish(scene), lambda *_: None)
+            for step in steps:
+                if isinstance(step, kind) and sorted(os.listdir(self.folder)) == finished:
+                    break
+                step.start(waiting=True)
+            steps.close()  # as Escape does
+            self.assertEqual([getattr(*where) for where in watched], before)
+            self.assertEqual(sorted(os.listdir(self.folder)), finished)
+            for name in finished:
+                os.remove(self.path(name))
+
+    def test_the_camera_may_change_by_markers(self):
+        other = bpy.data.objects.new("Wide", self.scene.camera.data.copy())
+        other.data.lens, other.rotation_euler = 35, self.scene.camera.rotation_euler
+        self.scene.collection.objects.link(other)
+        for frame, thing in ((1, self.scene.camera), (2, other)):
+            self.scene.timeline_markers.new(f"cut {frame}", frame=frame).camera = thing
+        self.scene.frame_start = self.scene.frame_end = 2
+        self.assertEqual(bpy.ops.petzval_lens.animation(), {"FINISHED"})
+        self.assertAlmostEqual(job.Kept.numbers.focal_length_mm, 35)
+
     def test_a_film_is_refused(self):
         output = self.scene.render.image_settings
         if hasattr(output, "media_type"):
@@ -253,6 +321,25 @@ class Refusals(InBlender):
         self.scene.camera.data.dof.focus_object = hidden
         self.refused("not in sight")
 
+    def test_what_petzval_refuses_is_refused_before_the_render(self):
+        renders, choices = [], self.scene.petzval_lens
+        bpy.app.handlers.render_pre.append(lambda *_: renders.append(1))
+        self.addCleanup(bpy.app.handlers.render_pre.clear)
+        choices.lens = "no such lens"
+        self.refused("no such lens")
+        choices.lens = "petzval-portrait"
+        self.refused("this lens opens to 3.6")
+        choices.lens, self.scene.camera.data.dof.aperture_fstop = "", 0.02
+        self.refused("must be 0.1 or more")
+        self.scene.camera.data.dof.aperture_fstop, choices.focus = 2, "SURFACE"
+        self.refused("needs a focus object")
+        self.assertEqual(renders, [])
+
+    def test_a_file_that_cannot_be_written_by_its_path(self):
+        self.scene.render.filepath = "/proc/petzval/out_"
+        self.scene.frame_end = self.scene.frame_start
+        self.refused("/proc/petzval/out_0001.png cannot be written: ", "animation")
+
     def test_nothing_to_take_again(self):
         job.Kept.forget()
         self.refused("nothing has been rendered", "develop")
@@ -267,6 +354,25 @@ class Refusals(InBlender):
             pathlib.Path(self.path("cut.exr")).write_bytes(cut)
             with self.assertRaises(refused):
                 exr.read(self.path("cut.exr"))
+
+
+class Windows(unittest.TestCase):
+    def test_image_editors_that_show_the_render_show_the_picture(self):
+        def editor(image, kind="IMAGE_EDITOR"):
+            return types.SimpleNamespace(type=kind, spaces=types.SimpleNamespace(active=types.SimpleNamespace(image=image)))
+        render, other = types.SimpleNamespace(type="RENDER_RESULT"), types.SimpleNamespace(type="IMAGE")
+        areas = [editor(render), editor(other), editor(None), editor(render, "VIEW_3D")]
+        installed.part("compositor").reveal([types.SimpleNamespace(areas=areas)], "petzval")
+        self.assertEqual([area.spaces.active.image for area in areas], ["petzval", other, None, render])
+
+    def test_escape_during_a_render_ends_what_follows(self):
+        ended, context = [], types.SimpleNamespace(workspace=types.SimpleNamespace(status_text_set=lambda _: None))
+        running = types.SimpleNamespace(_escaped=False, _steps=iter([job.Step()]), _end=lambda _, why: ended.append(why))
+        operators.Now.step = job.Step()
+        self.addCleanup(setattr, operators.Now, "step", None)
+        for kind in ("ESC", "TIMER"):
+            operators.Stepped.modal(running, context, types.SimpleNamespace(type=kind))
+        self.assertEqual(ended, ["cancelled"])
 
 
 class Threads(InBlender):

@@ -142,6 +142,22 @@ class Cameras(unittest.TestCase):
                 camera.read(self.scene(kind), None)
 
 
+    def test_the_size_in_whole_numbers(self):
+        for width, height, percent, size in ((1280, 720, 70, (896, 504)), (100, 101, 29, (29, 29)), (3, 3, 50, (1, 1))):
+            render = Rna(resolution_x=width, resolution_y=height, resolution_percentage=percent)
+            self.assertEqual(camera.size(render), size)
+
+
+class Reasons(unittest.TestCase):
+    def test_one_line_says_what_failed_and_what_to_change(self):
+        # As Debian's Blender 3.4.1 raises them.
+        self.assertEqual(refused.reason(RuntimeError("Error: Build without OpenImageDenoiser\n")),
+                         "Build without OpenImageDenoiser; switch off Denoise in the panel Sampling")
+        self.assertEqual(refused.reason(RuntimeError("Error: Could not write image: Invalid argument\nError: Image …\n")),
+                         "Could not write image: Invalid argument")
+        self.assertEqual(refused.reason(RuntimeError()), "Blender gives no reason")
+
+
 class Cryptomattes(unittest.TestCase):
     def test_published_hashes(self):  # en.wikipedia.org/wiki/MurmurHash, "Test vectors"
         for text, seed, value in ((b"", 0, 0), (b"", 1, 0x514E28B7), (b"test", 0, 0xBA6BD213),

@@ -21,6 +21,14 @@ def show(pixels, name):
     return image
 
 
+def reveal(screens, image):
+    """Shows the image in each image editor that shows the render, which has no blur."""
+    for area in (area for screen in screens for area in screen.areas if area.type == "IMAGE_EDITOR"):
+        space = area.spaces.active
+        if space.image is not None and space.image.type == "RENDER_RESULT":
+            space.image = image
+
+
 def put(scene, image):
     """Shows the image in the compositing nodes. It replaces Render Layers if these were the output's only input."""
     tree = versions.compositor_tree(bpy, scene)

@@ -9,7 +9,7 @@ import bpy
 
 from . import camera, compositor, passes, versions
 from .library import petzval
-from .refused import Refused
+from .refused import Refused, reason
 
 IMAGE = "petzval"  # the image datablock that shows the result
 
@@ -53,7 +53,10 @@ class Render(Step):
         self.names = {"scene": scene.name, "layer": view_layer.name}
 
     def start(self, waiting):
-        bpy.ops.render.render("EXEC_DEFAULT" if waiting else "INVOKE_DEFAULT", write_still=True, **self.names)
+        try:
+            bpy.ops.render.render("EXEC_DEFAULT" if waiting else "INVOKE_DEFAULT", write_still=True, **self.names)
+        except RuntimeError as why:
+            raise Refused(reason(why)) from None
 
     def done(self):
         return not bpy.app.is_job_running("RENDER")
@@ -157,6 +160,7 @@ def look_of(wish, numbers):
 def render_frame(scene, view_layer, wish, report):
     """Steps that render the passes of the current frame into Kept."""
     numbers = _numbers(scene, view_layer, wish)
+    _check_frame(scene, wish, numbers)
     kept_at = scene.render.frame_path(frame=scene.frame_current)
     front = _passes_path(kept_at if wish.keep_passes else None, "passes")
     Kept.numbers = Kept.front = Kept.behind = None  # a mapped file must not be written
@@ -173,16 +177,28 @@ def render_frame(scene, view_layer, wish, report):
     Kept.numbers, Kept.front, Kept.behind = numbers, seen, behind
 
 
+def _check_frame(scene, wish, numbers):
+    """Raises before the render what would be refused after it."""
+    if wish.surface:
+        _focus_object(scene)
+    Kept.session_of(wish.threads).defocus(passes.blank_shot(numbers), look_of(wish, numbers))
+
+
 def _numbers(scene, view_layer, wish):
     view_layer.update()
     return camera.read(scene, view_layer.depsgraph, wish.unit_m)
 
 
-def _on_surface(scene, numbers, seen):
+def _focus_object(scene):
     target = scene.camera.data.dof.focus_object
     if target is None:
         raise Refused("focus on a surface needs a focus object in the camera's depth of field")
-    return dataclasses.replace(numbers, focus_distance_m=seen.surface_distance(target.name) * numbers.unit_m)
+    return target
+
+
+def _on_surface(scene, numbers, seen):
+    distance = seen.surface_distance(_focus_object(scene).name)
+    return dataclasses.replace(numbers, focus_distance_m=distance * numbers.unit_m)
 
 
 def _passes_path(output, what):
@@ -197,7 +213,7 @@ def _render(scene, view_layer, wish, path, more):
     with versions.changed(passes.render_values(scene, view_layer, wish, path) + more):
         yield Render(scene, view_layer)
     if not os.path.exists(path):
-        raise Refused("the render was cancelled")
+        raise Refused("the render was cancelled, or failed for the reason that Blender reports")
 
 
 def develop(scene, wish, report):
@@ -211,6 +227,7 @@ def develop(scene, wish, report):
     for warning in frame.warnings:
         report({"WARNING"}, warning)
     image = compositor.show(frame.image, IMAGE)
+    compositor.reveal(bpy.data.screens, image)
     if wish.to_compositor:
         compositor.put(scene, image)
 
@@ -229,7 +246,10 @@ def again(scene, view_layer, wish, report):
 def save(scene, path):
     """Writes the image in the scene's own format."""
     with versions.changed(versions.picture_file_values(scene)):
-        bpy.data.images[IMAGE].save_render(path, scene=scene)
+        try:
+            bpy.data.images[IMAGE].save_render(path, scene=scene)
+        except RuntimeError as why:
+            raise Refused(f"{path} cannot be written: {reason(why)}") from None
 
 
 def still(scene, view_layer, wish, report, write):

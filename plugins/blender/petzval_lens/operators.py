@@ -36,19 +36,23 @@ class Stepped:
     def invoke(self, context, _event):
         if bpy.app.background:
             return self.execute(context)
-        self._steps, Now.step = self.steps(context), job.Step()
+        self._steps, Now.step, self._escaped = self.steps(context), job.Step(), False
         self._timer = context.window_manager.event_timer_add(0.1, window=context.window)
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 
     def modal(self, context, event):
-        if event.type == "ESC" and isinstance(Now.step, job.Defocus):  # a render is ended by its own window
+        if event.type == "ESC" and isinstance(Now.step, job.Defocus):
             return self._end(context, "cancelled")
+        if event.type == "ESC":  # Blender ends its render itself, unless that is about to finish
+            self._escaped = True
         if event.type != "TIMER":
             return {"PASS_THROUGH"}
         context.workspace.status_text_set(f"petzval: {Now.step.progress:.0%}  (Esc ends it)")
         if not Now.step.done():
             return {"PASS_THROUGH"}
+        if self._escaped:
+            return self._end(context, "cancelled")
         try:
             Now.step = next(self._steps)
             Now.step.start(waiting=False)

@@ -92,14 +92,24 @@ def _filled(plane, numbers):
     return numpy.pad(plane, numbers.room_px, mode="symmetric") if numbers.shift_px != (0, 0) else plane
 
 
+def _camera(numbers):
+    return petzval.Camera(numbers.focal_length_mm, numbers.sensor_width_mm, numbers.f_number, numbers.focus_distance_m)
+
+
+def blank_shot(numbers):
+    """A shot of this camera with one black pixel, in focus: petzval refuses it for the reasons of the whole picture."""
+    black = numpy.zeros((1, 1), numpy.float32)
+    return petzval.Shot([black] * 4, depth_m=black + numpy.float32(numbers.focus_distance_m), camera=_camera(numbers),
+                        display_window=(0, 0, numbers.width, numbers.height), data_window=(0, 0, 1, 1),
+                        pixel_aspect=numbers.pixel_aspect)
+
+
 def shot(numbers, front, behind=None):
     """A shot of passes, with hidden layers if they were rendered."""
-    camera = petzval.Camera(numbers.focal_length_mm, numbers.sensor_width_mm, numbers.f_number,
-                            numbers.focus_distance_m)
     (above, below), (left, right) = numbers.room_px
     x0, y0, x1, y1 = numbers.data_window
     return petzval.Shot([_filled(plane, numbers) for plane in front.colour],
-                        depth_m=_filled(front.depth, numbers) * numpy.float32(numbers.unit_m), camera=camera,
+                        depth_m=_filled(front.depth, numbers) * numpy.float32(numbers.unit_m), camera=_camera(numbers),
                         behind=None if behind is None else behind.as_deep(numbers),
                         display_window=(0, 0, numbers.width, numbers.height),
                         data_window=(x0 - left, y0 - above, x1 + right, y1 + below),
