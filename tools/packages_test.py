@@ -77,9 +77,13 @@ scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_pe
 scene.camera.data.dof.focus_distance, scene.camera.data.dof.aperture_fstop = 5, 0.2
 scene.render.filepath, scene.render.image_settings.file_format = "/tmp/blender", "OPEN_EXR"
 scene.render.image_settings.color_depth, scene.petzval_lens.keep_passes = "32", True
+scene.petzval_lens.lens, scene.camera.data.dof.aperture_blades = "doublet", 6
 bpy.ops.petzval_lens.still(write_still=True)
 from petzval_lens import job, view_program
-words = view_program.command("petzval", job.Kept.front.path, bpy.context.view_layer.name, job.Kept.numbers)
+look = job.look_of(scene.petzval_lens.wish(scene), job.Kept.numbers)
+open("/tmp/blender-look.json", "w").write(look.to_json())
+words = view_program.command("petzval", job.Kept.front.path, bpy.context.view_layer.name, job.Kept.numbers,
+                             "/tmp/blender-look.json")
 words[1] = "defocus"
 subprocess.run([*words, "-o", "/tmp/blender-line.exr", "--overwrite"], check=True)
 '

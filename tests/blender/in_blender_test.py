@@ -10,6 +10,7 @@ import sys
 import tempfile
 import types
 import unittest
+import unittest.mock
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import bpy  # noqa: E402
@@ -373,6 +374,23 @@ class Windows(unittest.TestCase):
         for kind in ("ESC", "TIMER"):
             operators.Stepped.modal(running, context, types.SimpleNamespace(type=kind))
         self.assertEqual(ended, ["cancelled"])
+
+
+class Program(InBlender):
+    def test_petzval_view_opens_the_passes_through_the_same_lens(self):
+        if not hasattr(bpy.types, "PETZVAL_LENS_OT_view"):
+            self.skipTest("the extension starts no other program")
+        self.scene.petzval_lens.lens, self.scene.camera.data.dof.aperture_blades = "doublet", 6
+        self.still()
+        view = installed.part("view_program")
+        with unittest.mock.patch.object(view.shutil, "which", return_value="/bin/petzval"), \
+                unittest.mock.patch.object(view.subprocess, "Popen") as started:
+            self.assertEqual(bpy.ops.petzval_lens.view(), {"FINISHED"})
+        words = started.call_args[0][0]
+        look = installed.part("library").petzval.Look.from_json(
+            pathlib.Path(words[words.index("--look") + 1]).read_text())
+        self.assertEqual((look["lens.name"], look["lens.blades"]), ("doublet", 6))
+        self.assertTrue(os.path.exists(words[2]))
 
 
 class Threads(InBlender):
