@@ -101,6 +101,12 @@ bool is_writer(const std::string& menu) {
 // Hosts that pass on the codes of video and of PNG files, as floats of 0 to 1.
 bool gives_codes(const std::string& host) { return host == "MLT"; }
 
+// MLT 7.41.0 gives the default of a normalised point as it is declared: its mlt_openfx.c copies defaults into
+// values, and multiplies by the frame's size only where a parameter has no value.
+bool is_unscaled_middle(const ofx::Point& point) {
+    return point.x == 0.5 && point.y == 0.5 && host_name() == "MLT";
+}
+
 // Linear comes first, then srgb.
 std::vector<std::string> transfers() {
     std::vector<std::string> words{name_of(Transfer::Linear)};
@@ -235,6 +241,7 @@ Values values_at(ofx::Effect* instance, ofx::Time time) {
     if (ofx::Param* point = param_of(instance, name::kFocusPoint)) {
         ofx::Point at{};
         if (suites().parameter->value_at_time(point, time, &at.x, &at.y) == ofx::kOk) v.focus_point = at;
+        v.focus_is_middle = is_unscaled_middle(v.focus_point);
     }
     v.focus_from =
         value_of(instance, name::kFocusFrom, time, 0) == 1 ? FocusFrom::Point : FocusFrom::Distance;

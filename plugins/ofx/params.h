@@ -30,7 +30,8 @@ enum class SensorSpans { Project, Source };
 struct Values {
     double focal_length_mm = 50, sensor_width_mm = 36, f_number = 2.8, focus_distance_m = 3;
     FocusFrom focus_from = FocusFrom::Distance;
-    ofx::Point focus_point{};  // canonical
+    ofx::Point focus_point{};      // canonical
+    bool focus_is_middle = false;  // of the frame, instead of focus_point
     SensorSpans sensor_spans = SensorSpans::Project;
     Transfer transfer = Transfer::Linear;  // of Source, Plate and Output
     DepthFrom depth_from = DepthFrom::Auto;

@@ -157,8 +157,11 @@ Status take_plate(const DepthQuestion& q, Scene& scene) {
 // Errors: InvalidArgument for a point outside of Source, or one that shows nothing.
 Result<double> depth_at_point(const DepthQuestion& q, const DepthOfFrame& depth) {
     const ofx::Point p = q.values->focus_point;
-    const int x = int(std::floor(p.x * q.scale.x / q.source->pixel_aspect()));
-    const int y = int(std::floor(p.y * q.scale.y));
+    const ofx::RectI& frame = q.frame->display;
+    const bool middle = q.values->focus_is_middle;
+    const int x =
+        middle ? (frame.x1 + frame.x2) / 2 : int(std::floor(p.x * q.scale.x / q.source->pixel_aspect()));
+    const int y = middle ? (frame.y1 + frame.y2) / 2 : int(std::floor(p.y * q.scale.y));
     const ofx::RectI& bounds = q.source->bounds();
     if (depth.are_radii) return refused("Focus on 'point' needs depth, not radii");
     if (x < bounds.x1 || x >= bounds.x2 || y < bounds.y1 || y >= bounds.y2)

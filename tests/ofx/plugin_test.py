@@ -129,6 +129,13 @@ class Plugin(unittest.TestCase):
     def test_the_focus_point_counts_from_the_bottom(self):
         self.same({"focusFrom": "point", "focusPoint": "40.5,30.5"}, ["--focus-at", "40,59"])
 
+    def test_the_default_focus_point_is_the_middle_in_mlt_too(self):
+        # MLT 7.41.0 gives the normalised default without the frame's size; other hosts give what a user set.
+        point = {"focusFrom": "point", "transfer": "linear"}
+        self.same({**point, "focusPoint": "0.5,0.5"}, ["--focus-at", "80,44"], (*self.CLIPS, "--host", "MLT"))
+        self.same(point, ["--focus-at", "80,44"])
+        self.same({**point, "focusPoint": "0.5,0.5"}, ["--focus-at", "0,89"])
+
     def test_a_mask_and_units_are_those_of_the_command_line(self):
         self.same({"focusDistance": 2.4, "depthUnit": 0.5, "depthKind": "ray"},
                   ["--focus", "2.4m", "--unit-scale", "0.5", "--depth-kind", "ray"])
