@@ -72,7 +72,7 @@ class Lab(Page):
         WebDriverWait(self.browser, SECONDS).until(lambda b: b.find_elements(By.CSS_SELECTOR, "#section path.ray"))
         self.browser.find_element(By.ID, "disc").click()
         self.assertTrue(self.browser.find_elements(By.CSS_SELECTOR, "#section path.ray.lit"))
-        self.assertRegex(self.text("lit"), r"^\d+ of \d+ rays meet there")
+        self.assertRegex(self.text("lit"), r"^\d+ of \d+ rays land there")
 
     def saved(self, button):
         """The channels and attributes of the EXR that a button of the page saves."""

@@ -43,7 +43,7 @@ export class GatherPass {
   /** @throws {Error} with a sentence where this browser cannot */
   constructor(canvas) {
     const gl = canvas.getContext("webgl2", { antialias: false, depth: false, preserveDrawingBuffer: true });
-    if (!gl) throw new Error("this browser has no WebGL2, which the live picture is drawn with");
+    if (!gl) throw new Error("this browser has no WebGL2, which the live picture needs");
     if (!gl.getExtension("EXT_color_buffer_float")) throw new Error("this browser's WebGL2 cannot draw into pictures of floats");
     // Sprites are added up: in halves where floats cannot be.
     this.sumFormat = gl.getExtension("EXT_float_blend") ? gl.RGBA32F : gl.RGBA16F;

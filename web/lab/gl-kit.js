@@ -9,7 +9,7 @@ export class Kit {
   /** @throws {Error} with a sentence where this browser cannot */
   constructor(canvas) {
     const gl = canvas.getContext("webgl2", { antialias: false, preserveDrawingBuffer: true });
-    if (!gl) throw new Error("this browser has no WebGL2, which these pictures are drawn with");
+    if (!gl) throw new Error("this browser has no WebGL2, which these pictures need");
     if (!gl.getExtension("EXT_color_buffer_float")) throw new Error("this browser's WebGL2 cannot draw into pictures of floats");
     this.gl = gl;
     this.blends32 = Boolean(gl.getExtension("EXT_float_blend"));

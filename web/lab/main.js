@@ -53,7 +53,7 @@ const discArgs = (coc_px, scale = 1) => ({ lens: state.lens, camera: camera(coc_
 function showDisc(found, ms, scale) {
   disc = { ...found, coc_px: state.light.coc_px * scale, scale, side: drawDisc($("disc"), found, state.light.coc_px * scale, exposure) };
   const sums = [0, 1, 2].map((c) => found.pixels.reduce((sum, v, i) => (i % 4 === c ? sum + v : sum), 0));
-  $("told").textContent = scale < 1 ? "Coarse while it moves." : `${found.needed} px wide, light ${sums.map((v) => v.toFixed(4)).join(" ")}, ${ms.toFixed(0)} ms.`;
+  $("told").textContent = scale < 1 ? "Coarse preview." : `${found.needed} px wide, light ${sums.map((v) => v.toFixed(4)).join(" ")}, ${ms.toFixed(0)} ms.`;
   $("disc").setAttribute("aria-label", `The disc of one light, ${Math.abs(state.light.coc_px)} pixels ${state.light.coc_px < 0 ? "in front of" : "behind"} focus`);
 }
 
@@ -155,7 +155,7 @@ function lightUp(event) {
   const box = $("disc").getBoundingClientRect(), scale = disc.side / box.width / disc.scale;
   spot = { x: (event.clientX - box.left - box.width / 2) * scale, y: (event.clientY - box.top - box.height / 2) * scale, reach: Math.max(2, 0.08 * Math.abs(state.light.coc_px)) };
   const lit = drawSection($("section"), section, spot, focusOf(section));
-  $("lit").textContent = lit ? `${lit} of ${section.rays.length} rays meet there.` : "No ray of the drawing meets there; click inside of the disc.";
+  $("lit").textContent = lit ? `${lit} of ${section.rays.length} rays land there.` : "No drawn ray lands there; click inside the disc.";
 }
 
 function showPlace() {
@@ -216,7 +216,7 @@ async function useText(text, name) {
     const look = lensOfLook(text), lens = look?.lens ?? { name, text, look: {} };
     await kernel.ask("facts", { lens }); // a text that is not a lens changes nothing
     await use(lens);
-    if (look?.left_out.length) complain(`This page has no controls for ${look.left_out.join(", ")}: they are left out.`);
+    if (look?.left_out.length) complain(`This page has no controls for ${look.left_out.join(", ")}; these fields are left out.`);
   } catch (error) {
     notes([error.message]);
     complain(error.message);
@@ -296,7 +296,7 @@ function wire() {
   $("texture-details").ontoggle = showTexture;
   $("file").onchange = async () => {
     const [file] = $("file").files;
-    if (file && file.size > 1 << 20) complain(`${file.name} holds ${file.size} bytes, too many for a lens.`);
+    if (file && file.size > 1 << 20) complain(`${file.name} has ${file.size} bytes, too many for a lens.`);
     else if (file) useText(await file.text(), file.name.replace(/\.[^.]*$/, ""));
   };
   $("use-paste").onclick = () => useText($("paste").value, "pasted");

@@ -41,7 +41,7 @@ export async function builtInScene(name) {
     }
     first[i + 1] = BigInt(s);
   }
-  return { name, width, height, pixels: seen.colours, depth_m: seen.depth_m, first, samples, camera, told: `The scene ${name}, with one layer of what its surfaces hide.` };
+  return { name, width, height, pixels: seen.colours, depth_m: seen.depth_m, first, samples, camera, told: `The scene ${name}, with one layer of hidden background.` };
 }
 
 const MOST_WIDE = 960, MOST_HIGH = 640, MOST_BYTES = 600e6;

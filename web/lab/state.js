@@ -7,22 +7,22 @@ export const CONTROLS = [
   { group: "Aperture", field: "blade_rotation_deg", label: "Blade rotation", unit: "°", min: -180, max: 180, step: 1, value: 0,
     help: "Angle of the first corner, counter-clockwise from the right, in a background disc." },
   { group: "Aperture", field: "blade_curvature", label: "Blade curvature", min: 0, max: 1, step: 0.01, value: 0, help: "0: straight edges. 1: a circle." },
-  { group: "Aperture", field: "iris_open", label: "Iris round at f/", min: 0, max: 16, step: 0.1, value: 0, help: "Blades show as the iris closes from here on. 0: always." },
-  { group: "Aperture", field: "squeeze", label: "Anamorphic squeeze", unit: "×", min: 0.5, max: 2, step: 0.05, value: 1, help: "How many times taller than wide the disc is." },
-  { group: "Aperture", field: "cats_eye", label: "Cat's eye", min: 0, max: 1, step: 0.01, value: 0, help: "How far the barrel covers the pupil towards the corners." },
-  { group: "Aberrations", field: "spherical", label: "Spherical, own", unit: "×", min: -2, max: 2, step: 0.05, value: 1, curveOnly: true,
+  { group: "Aperture", field: "iris_open", label: "Iris round at f/", min: 0, max: 16, step: 0.1, value: 0, help: "Blades show at larger f-numbers than this. 0: always." },
+  { group: "Aperture", field: "squeeze", label: "Anamorphic squeeze", unit: "×", min: 0.5, max: 2, step: 0.05, value: 1, help: "Height of the disc divided by its width." },
+  { group: "Aperture", field: "cats_eye", label: "Cat's eye", min: 0, max: 1, step: 0.01, value: 0, help: "Part of the pupil that the barrel covers towards the corners." },
+  { group: "Aberrations", field: "spherical", label: "Spherical, factor", unit: "×", min: -2, max: 2, step: 0.05, value: 1, curveOnly: true,
     help: "Multiplies the spherical aberration of a lens drawn as curves." },
-  { group: "Aberrations", field: "axial_colour", label: "Axial colour, own", unit: "×", min: -2, max: 2, step: 0.05, value: 1, curveOnly: true,
+  { group: "Aberrations", field: "axial_colour", label: "Axial colour, factor", unit: "×", min: -2, max: 2, step: 0.05, value: 1, curveOnly: true,
     help: "Multiplies the axial colour of a lens drawn as curves." },
   { group: "Aberrations", field: "added_spherical_waves", label: "Spherical, added", unit: "waves", min: -10, max: 10, step: 0.1, value: 0,
     help: "Adds spherical aberration to any lens, as the ring of a defocus-control lens does." },
   { group: "Aberrations", field: "added_axial_colour_mm", label: "Axial colour, added", unit: "mm", min: -0.5, max: 0.5, step: 0.01, value: 0,
-    help: "Where blue light focuses, measured from red." },
+    help: "Distance of the blue focus behind the red one." },
   { group: "Aberrations", field: "added_lateral_colour_percent", label: "Lateral colour, added", unit: "%", min: -1, max: 1, step: 0.02, value: 0,
-    help: "How much larger the blue picture is than the red one." },
+    help: "Size of the blue image relative to the red one." },
   { group: "Aberrations", field: "added_field_curvature_mm", label: "Field curvature, added", unit: "mm", min: -1, max: 1, step: 0.02, value: 0,
-    help: "Where the corners focus, measured from the middle." },
-  { group: "Aberrations", field: "lateral_colour", label: "Lateral colour, own", unit: "×", min: -2, max: 2, step: 0.05, value: 1,
+    help: "Distance of the corners' focus behind that of the middle." },
+  { group: "Aberrations", field: "lateral_colour", label: "Lateral colour, factor", unit: "×", min: -2, max: 2, step: 0.05, value: 1,
     help: "Multiplies the lateral colour of a lens with surfaces." },
   { group: "Aberrations", field: "distortion", label: "Distortion", min: -0.3, max: 0.3, step: 0.01, value: 0, help: "Stretches the corners of the picture and their discs." },
   { group: "Aberrations", field: "coma", label: "Coma", min: -5, max: 5, step: 0.1, value: 0, help: "Tails that point outwards in the corners." },
@@ -30,7 +30,7 @@ export const CONTROLS = [
   { group: "Pupil", field: "dust", label: "Dust", min: 0, max: 1, step: 0.01, value: 0, help: "Specks on the glass, seen in large discs." },
   { group: "Pupil", field: "scratches", label: "Scratches", min: 0, max: 1, step: 0.01, value: 0, help: "Fine lines across the disc." },
   { group: "Pupil", field: "onion_rings", label: "Onion rings", min: 0, max: 1, step: 0.01, value: 0, help: "Turning marks of moulded aspheres." },
-  { group: "Pupil", field: "texture_seed", label: "Specks and marks, number", min: 1, max: 30, step: 1, value: 1, help: "Other dust, scratches and rings." },
+  { group: "Pupil", field: "texture_seed", label: "Pattern, number", min: 1, max: 30, step: 1, value: 1, help: "Another pattern of dust, scratches and rings." },
   ...["radius_mm", "distance_mm"].map((part, i) => ({
     group: "Barrel", field: "barrel", key: `barrel_${part}`, label: ["Rim, radius", "Rim, in front of the pupil"][i], unit: "mm", min: -80 * i, max: [40, 80][i], step: 0.5, value: 40 * i,
     help: ["A rim of the barrel that cuts discs towards the edges. 0: none.", "Negative: behind the pupil, it cuts the other side."][i],
@@ -43,7 +43,7 @@ export const CONTROLS = [
   })),
   ...["left", "right", "top", "bottom"].map((side, i) => ({
     group: "Barrel", field: "barn_doors", key: `barn_doors_${side}`, label: `Barn door, ${side}`, min: 0, max: 1, step: 0.02, value: 0,
-    help: "How far a door of the matte box covers the pupil from this side, in pupil radii.",
+    help: "Depth to which a door of the matte box covers the pupil from this side, in pupil radii.",
     get: (look) => look.barn_doors?.[i] ?? 0,
     set: (look, value) => {
       const doors = Object.assign([...(look.barn_doors ?? [0, 0, 0, 0])], { [i]: value });
@@ -51,7 +51,7 @@ export const CONTROLS = [
       else delete look.barn_doors;
     },
   })),
-  { group: "Light", field: "light", label: "Lamp", choices: ["daylight", "sodium", "mercury", "neon", "led"], value: "daylight", help: "The lines of a lamp focus separately." },
+  { group: "Light", field: "light", label: "Lamp", choices: ["daylight", "sodium", "mercury", "neon", "led"], value: "daylight", help: "Spectrum of the light. The lines of a lamp focus separately." },
   { group: "Light", field: "wavelengths", label: "Wavelengths", min: 0, max: 64, step: 1, value: 0, help: "Bands of the spectrum. 0: as many as the disc needs." },
   { group: "Light", field: "wave", label: "Wave optics", type: "check", value: false, help: "Diffraction: rings and the spikes of blades. Slow." },
 ];
@@ -109,7 +109,7 @@ export function toFragment(state) {
 export function fromFragment(fragment) {
   const usual = { state: freshState(), problem: null };
   if (!fragment) return usual;
-  const refused = (why) => ({ ...usual, problem: `This link holds no lens that can be read (${why}), so the page starts with the doublet.` });
+  const refused = (why) => ({ ...usual, problem: `This link has no readable lens (${why}), so the page starts with the doublet.` });
   const match = /^lens=(\d+)\.([\w-]+)$/.exec(fragment);
   if (!match) return refused("it is cut off or from elsewhere");
   if (Number(match[1]) > VERSION) return refused(`version ${match[1]} is newer than this page`);

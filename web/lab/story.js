@@ -71,8 +71,8 @@ function corrected({ longitudinal_aberration_mm: own }, spherical) {
 }
 
 const ofFacts = (lens, spherical, caption, draw) => ({ kind: "svg", caption, call: "facts", args: { lens }, draw: (svg, facts) => draw(svg, corrected(facts, spherical)) });
-const curves = (lens, spherical = 1) => ofFacts(lens, spherical, "Where each zone's light crosses the axis.", drawCurves);
-const caustic = (lens, spherical) => ofFacts(lens, spherical, "The rays near focus. On the left the sensor for a light in front of focus, on the right for one behind.", drawCaustic);
+const curves = (lens, spherical = 1) => ofFacts(lens, spherical, "Points where the light of each zone crosses the axis.", drawCurves);
+const caustic = (lens, spherical) => ofFacts(lens, spherical, "Rays near focus. The left line is the sensor for a light in front of focus, the right line for a light behind focus.", drawCaustic);
 
 function texture(lens) {
   return {
@@ -87,7 +87,7 @@ const toLight = (code) => (code <= 0.04045 ? code / 12.92 : ((code + 0.055) / 1.
 
 function lamps(brightest, coded) {
   return {
-    kind: "canvas", caption: coded ? "Display codes, blurred." : "Light, blurred, then coded.", call: "disc", args: disc(lensOf("doublet"), 20).args,
+    kind: "canvas", caption: coded ? "Display codes, blurred." : "Light, blurred, then encoded.", call: "disc", args: disc(lensOf("doublet"), 20).args,
     draw: (canvas, { size, pixels }) => {
       const [width, height] = LAMPS_SIZE, out = new Float32Array(4 * width * height).fill(coded ? toCode(DARK) : DARK);
       LAMPS.forEach(([px, py], i) => {
