@@ -22,10 +22,10 @@ std::string edge_law(const Subject& subject) {
     if (foci.empty()) return "";
     const double rim = foci.back().x - subject.best_focus_mm();
     if (!(std::abs(rim) * 1000 / (2 * subject.f_number()) > 0.1 * subject.blur_um())) return "";
-    return rim < 0 ? " Here the rim of the pupil focuses nearer to the lens than the sensor stands, so discs "
-                     "<b>in front</b> of focus have the sharp edge and those behind fade out softly."
-                   : " Here the rim of the pupil focuses beyond the sensor, so discs <b>behind</b> the focus "
-                     "have the sharp edge and those in front fade out softly.";
+    return rim < 0 ? " In this lens the rim of the pupil focuses in front of the sensor, so discs <b>in "
+                     "front</b> of focus have a sharp edge and discs behind it a soft one."
+                   : " In this lens the rim of the pupil focuses behind the sensor, so discs <b>behind</b> "
+                     "focus have a sharp edge and discs in front of it a soft one.";
 }
 
 // The part of the axis that is drawn, and where on the page.
@@ -76,13 +76,12 @@ Figure zone_curves(const Subject& subject) {
     Plot plot(kWide, kTall, "Longitudinal aberration", x, {0, 1.04, "height in the pupil"});
     plot.mark_x(subject.best_focus_mm(), "sensor");
     for (std::size_t i = 0; i < curves.size(); ++i) plot.curve(curves[i], lines_of(subject)[i].css);
-    return {
-        plot.str(),
-        "Where along the axis each zone of the pupil focuses, one curve per wavelength: a curve that leans "
-        "is spherical aberration, curves side by side are axial colour. The dotted line is where the "
-        "sensor stands." +
-            edge_law(subject),
-        4};
+    return {plot.str(),
+            "Focus of each zone of the pupil along the axis, one curve per wavelength. A leaning curve shows "
+            "spherical aberration; a distance between the curves shows axial colour. The dotted line is the "
+            "position of the sensor." +
+                edge_law(subject),
+            4};
 }
 
 Figure colour_curve(const Subject& subject) {
@@ -104,14 +103,13 @@ Figure colour_curve(const Subject& subject) {
     }
     plot.curve(curves[0], "curve0").curve(curves[1], "curve1");
     plot.mark_y(subject.best_focus_mm(), "sensor");
-    return {
-        plot.str(),
-        subject.has_colour()
-            ? "Paraxial focus over the spectrum (solid) and that of the zone that halves the pupil's area "
-              "(dashed). A single glass gives a slope, an achromat a bow (its secondary spectrum), an "
-              "apochromat an S."
-            : "The source of this lens gives no dispersion: all wavelengths are traced as one.",
-        4};
+    return {plot.str(),
+            subject.has_colour()
+                ? "Paraxial focus over the spectrum (solid), and focus of the zone that divides the pupil "
+                  "into equal areas (dashed). A lens of one glass has a slope, an achromat a bow (its "
+                  "secondary spectrum), an apochromat an S."
+                : "The source of this lens states no dispersion, so all wavelengths are traced alike.",
+            4};
 }
 
 Figure axial_fan(const Subject& subject) {
@@ -128,8 +126,8 @@ Figure axial_fan(const Subject& subject) {
     Plot plot(kWide, kTall, "Rays on the sensor", {-1, 1, "height in the pupil"}, y);
     for (std::size_t i = 0; i < curves.size(); ++i) plot.curve(curves[i], lines_of(subject)[i].css);
     return {plot.str(),
-            "The same light where it meets the sensor at best focus. The spread of these curves is the blur "
-            "that stays when everything is focused: " +
+            "The same rays on the sensor at best focus. The spread of these curves is the blur that remains "
+            "in focus: " +
                 significant(2 * subject.axis().reach_um(0)) + " µm across at f/" +
                 significant(subject.f_number(), 2) + ".",
             4};
@@ -140,7 +138,7 @@ Figure rays_near_focus(const Subject& subject, int wavelengths) {
     Svg svg(kWidth, kHeight, "rays of " + subject.name() + " near focus");
     const double width = kWidth - kLeft - 8, height = kHeight - kTop - kBottom;
     svg.text({kLeft, kTop - 9},
-             wavelengths == 3 ? "Three wavelengths, as the talk draws them"
+             wavelengths == 3 ? "Three wavelengths, as in Kawase's talk"
                               : std::to_string(wavelengths) + " wavelengths",
              "title");
     const RayWindow w(subject, {kLeft, kTop}, width, height);

@@ -80,15 +80,14 @@ Figure labelled() {
     measure(svg, place(0, -1.18), place(1, -1.18), "f", {0, 15}, Anchor::Middle);
     measure(svg, place(-kFocus, -1.05), place(0, -1.05), "F", {0, -5}, Anchor::Middle);
     measure(svg, place(-kPoint, -1.25), place(0, -1.25), "P", {0, 15}, Anchor::Middle);
-    return {
-        svg.str(),
-        "A, diameter of the pupil; f, focal length; F, distance in focus; P, distance of a point. Its light "
-        "meets before the film and arrives as a disc of the diameter <b>c = A · |P − F|/P · f/(F − f)</b>, "
-        "the circle of confusion (petzval counts its radius, negative in front of focus). A c that is "
-        "too small to see counts as sharp. The points with such a c are the depth of field; the places of "
-        "the film that keep it small are the depth of focus. This drawing calls a tenth of A too small to "
-        "see, so that both ranges can be drawn.",
-        12};
+    return {svg.str(),
+            "A is the diameter of the pupil, f the focal length, F the focus distance, P the distance of a "
+            "point. The light of this point converges in front of the film and forms a disc on it, the "
+            "circle of confusion. Its diameter is <b>c = A · |P − F|/P · f/(F − f)</b>; petzval uses the "
+            "radius, negative in front of focus. A point counts as sharp if c is too small to see: these "
+            "points form the depth of field. The positions of the film at which c is that small form the "
+            "depth of focus. In this drawing the limit is a tenth of A, so that both ranges are visible.",
+            12};
 }
 
 struct Stop {
@@ -114,7 +113,7 @@ Figure over_distance(const Subject& subject) {
     Plot plot(kWidth, 330, "Circle of confusion by distance", {0, 6 * focus_m, "distance, m"},
               {-1.6 * most, 1.25 * most, "diameter, % of the picture’s width"});
     plot.mark_x(focus_m, "in focus");
-    plot.mark_y(most, "infinity: A · f/(F − f)").mark_y(-most, "where published gathers clamp");
+    plot.mark_y(most, "infinity: A · f/(F − f)").mark_y(-most, "clamp of published gather methods");
     for (const Stop& stop : kStops) {
         const auto law = coc(stop.share);
         if (!law) return {};
@@ -129,12 +128,10 @@ Figure over_distance(const Subject& subject) {
     }
     return {plot.str(),
             "Focused at " + significant(focus_m) +
-                " m (40 f). In front of focus, below 0, discs grow without "
-                "end; behind it no further than to the disc of infinity. Half the focus distance blurs as "
-                "much as "
-                "infinity: where published methods for games clamp the near side. Two stops down halve "
-                "everything "
-                "twice.",
+                " m (40 f). In front of focus (below 0), discs grow without limit; behind focus they grow up "
+                "to the disc of infinity. A point at half the focus distance is blurred as much as infinity; "
+                "published methods for games clamp the near side there. Stopping down by two stops halves "
+                "all diameters; the third curve is four stops down.",
             12};
 }
 

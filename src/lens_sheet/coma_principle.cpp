@@ -69,15 +69,14 @@ Figure coma_principle(const Subject& subject) {
                         0.46 * kPanel / reach_of(landed_zone(**lens, 1, defocus[i])));
     }
     svg.text(Point{kPanel + 36, kTop + 14}, "↑ outward", "note");
-    return {
-        svg.str(),
-        "The principle of coma, with the rays of <code>--coma 1</code> at the frame's corner and nothing "
-        "else: zones of the pupil are imaged to different sizes. In focus the zone at height ρ lands "
-        "on a circle, twice around, of radius Cρ², whose middle is shifted outward by 2Cρ²: all circles "
-        "touch two lines 60° apart, the comet's tail. Out of focus the same shift moves each zone's ring; "
-        "rings crowd on one side, the bright edge, and spread on the other, in front of the focus and behind "
-        "it alike. Each panel has its own scale.",
-        12};
+    return {svg.str(),
+            "The principle of coma: rays of <code>--coma 1</code> at the corner of the frame, without other "
+            "aberrations. Zones of the pupil form images of different sizes. In focus, the zone at height ρ "
+            "lands on a circle of radius Cρ², which it covers twice and whose centre is shifted outward by "
+            "2Cρ². All circles touch two lines 60° apart, the sides of the comet's tail. Out of focus, the "
+            "same shift moves the ring of each zone: on one side the rings crowd into a bright edge, on the "
+            "other they spread, both in front of focus and behind it. Each panel has its own scale.",
+            12};
 }
 
 }  // namespace petzval::lens_sheet

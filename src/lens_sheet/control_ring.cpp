@@ -59,16 +59,15 @@ std::optional<Figure> control_ring(const Subject& subject) {
             "tick", Anchor::Middle);
     svg.text({kLeft - 8, kTop + 0.5 * kCellCss + 4}, "in front", "name", Anchor::End);
     svg.text({kLeft - 8, kTop + 1.5 * kCellCss + 4}, "behind", "name", Anchor::End);
-    return Figure{
-        svg.str(),
-        "The defocus-control ring of portrait lenses, on this one: spherical aberration is added, as "
-        "a wavefront that stands " +
-            number(waves, 2) +
-            " waves (588 nm) off at the rim. Turned one way it gives rings in front of focus and soft "
-            "discs behind, turned the other way the reverse. <code>petzval lens psf " +
-            escaped(subject.asked()) + " --add-spherical " + number(waves, 2) +
-            " --defocus 40 -o disc.exr</code>",
-        5};
+    return Figure{svg.str(),
+                  "This lens with the defocus-control ring of portrait lenses. The ring adds spherical "
+                  "aberration: a wavefront that deviates at the rim by " +
+                      number(waves, 2) +
+                      " waves (588 nm). Turned one way, it makes rings in front of focus and soft discs "
+                      "behind; turned the other way, the reverse. <code>petzval lens psf " +
+                      escaped(subject.asked()) + " --add-spherical " + number(waves, 2) +
+                      " --defocus 40 -o disc.exr</code>",
+                  5};
 }
 
 }  // namespace petzval::lens_sheet

@@ -217,10 +217,9 @@ Figure cross_section(const Subject& subject) {
     const auto lens = optics::TracedLens::make(*subject.prescription(), {});
     if (!lens) return {"", escaped(lens.error().message), 12};
     return {traced_section(subject, *lens),
-            "Light comes from the left, from infinity; every ray is traced through the surfaces as they were "
-            "published, and those that a rim would stop are left out. The sensor stands at the paraxial "
-            "focus. Below, "
-            "where the principal planes H and H′, the focal points and the paraxial pupils stand.",
+            "Light comes from infinity, on the left. Every ray is traced through the published surfaces; "
+            "rays that a rim blocks are omitted. The sensor is at the paraxial focus. The scale below shows "
+            "the principal planes H and H′, the focal points and the paraxial pupils.",
             12};
 }
 

@@ -25,12 +25,11 @@ double zoom_of(const Subject& subject, double blurs) {
 }
 
 std::string caption(const Subject& subject) {
-    return "What a point of light becomes, from far in front of the focus (left) to far behind (right). All "
-           "discs of a column are drawn to one scale, chosen so that the open one fills its cell; the number "
-           "below is the radius of the circle of confusion wide open. Stopping down makes discs smaller and, "
-           "as spherical aberration falls with the cube of the aperture, flatter. Brightness is evened out: "
-           "in "
-           "truth light per area falls with the square of the radius. <code>petzval lens psf " +
+    return "Discs of a point of light, from far in front of focus (left) to far behind (right). All discs of "
+           "a column have one scale, at which the disc wide open fills its cell; the number below is the "
+           "radius of its circle of confusion. Stopped down, discs become smaller and also flatter, because "
+           "spherical aberration falls with the cube of the aperture. All discs are drawn equally bright; "
+           "the real light per area falls with the square of the radius. <code>petzval lens psf " +
            escaped(subject.asked()) + " --defocus 40 -o disc.exr</code>";
 }
 
@@ -77,11 +76,9 @@ Figure line_strip(const Subject& subject) {
     svg.image({kLeft, 4}, columns * kCellCss, kHighCss, canvas.uri());
     svg.text({kLeft - 8, 4 + kHighCss / 2 + 4}, "a line", "name", Anchor::End);
     return {svg.str(),
-            "What a thin bright line becomes, wide open, in the same columns: a twig, a wire, a blade of "
-            "grass. Where "
-            "discs have a bright rim the line splits in two, and where they have a core as well in three: "
-            "the two-line "
-            "and three-line bokeh that photographers dislike.",
+            "A thin bright line, such as a twig, a wire or a blade of grass, wide open and in the same "
+            "columns. If discs have a bright rim, the line splits in two; if they also have a bright core, "
+            "in three. Photographers call this two-line or three-line bokeh.",
             12};
 }
 

@@ -183,14 +183,14 @@ private:
 
 Figure drawn_section(const Subject& subject) {
     return {Diagram(subject).str(),
-            std::string("A schematic: this lens is defined by its aberration curves, without glasses. ") +
+            std::string("A schematic drawing, because aberration curves and not glasses define this lens. ") +
                 (elements_of(subject.name()).empty()
                      ? "The outline stands for any lens. "
-                     : "Its elements are drawn as lenses of this kind have them, not to scale. ") +
-                "Each ray bends once and is aimed at the focus of its own zone and wavelength; how far these "
-                "foci lie apart is exaggerated, as in the talk's figures, or nothing would be seen. Parallel "
-                "light from the side meets off the axis, where its ray through the middle of the lens goes "
-                "straight.",
+                     : "The elements are typical of this kind of lens and not to scale. ") +
+                "Each ray bends once, towards the focus of its own zone and wavelength. The distances "
+                "between these foci are exaggerated, as in the figures of Kawase's talk; otherwise they "
+                "would be invisible. Parallel light from the side converges off the axis, on the straight "
+                "ray through the middle of the lens.",
             12};
 }
 

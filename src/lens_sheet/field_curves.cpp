@@ -72,21 +72,21 @@ std::vector<Figure> field_curves(const Subject& subject) {
     if (!lens) return {};
     const FieldCurves c = curves_of(*lens, field);
     const double f = subject.focal_length_mm();
-    return {
-        drawn("Field curvature", {&c.tangential, &c.sagittal},
-              around({&c.tangential, &c.sagittal}, "focus, mm", 1e-3 * f), field,
-              "Where fine detail focuses, from the paraxial image plane: lines across the radius of the "
-              "picture (tangential, solid) and along it (sagittal, dashed). Their distance is "
-              "astigmatism; out of focus it swirls."),
-        drawn("Distortion", {&c.distortion}, around({&c.distortion}, "%", 0.2), field,
-              "Image height against that of a perfect lens, f·tan of the field. Negative: barrel."),
-        drawn("Lateral colour", {&c.colour_um}, around({&c.colour_um}, "µm", 0.2), field,
-              "How much higher the short wavelength's image lies than the long one's (" +
-                  number(1000 * subject.facts().short_um, 0) + " and " +
-                  number(1000 * subject.facts().long_um, 0) + " nm)."),
-        drawn("Vignetting", {&c.light}, {0, 105, "% of the stop"}, field,
-              "Fraction of the stop that no other rim hides, lens wide open: the missing part is the bite of "
-              "the cat's eye.")};
+    return {drawn("Field curvature", {&c.tangential, &c.sagittal},
+                  around({&c.tangential, &c.sagittal}, "focus, mm", 1e-3 * f), field,
+                  "Distance of the focus of fine detail from the paraxial image plane: for lines across the "
+                  "radius of the picture (tangential, solid) and along it (sagittal, dashed). The difference "
+                  "is astigmatism, which makes blur swirl."),
+            drawn("Distortion", {&c.distortion}, around({&c.distortion}, "%", 0.2), field,
+                  "Image height compared with a perfect lens, whose height is f·tan of the field. Negative "
+                  "values are barrel distortion."),
+            drawn("Lateral colour", {&c.colour_um}, around({&c.colour_um}, "µm", 0.2), field,
+                  "Image height of the short wavelength minus that of the long one (" +
+                      number(1000 * subject.facts().short_um, 0) + " and " +
+                      number(1000 * subject.facts().long_um, 0) + " nm)."),
+            drawn("Vignetting", {&c.light}, {0, 105, "% of the stop"}, field,
+                  "Fraction of the stop that no other rim hides, wide open. The hidden part makes discs into "
+                  "cat's eyes.")};
 }
 
 }  // namespace petzval::lens_sheet

@@ -79,16 +79,14 @@ std::optional<Figure> pair_of(const Subject& subject, const std::string& title, 
 
 std::vector<Figure> traced_fields(const Subject& subject) {
     std::vector<Figure> figures;
-    if (auto large = pair_of(
-            subject, "Large discs", {}, 8,
-            "Far from focus the outline shows most: the rims of the barrel cut the disc to a lemon, from "
-            "opposite sides in front of and behind the focus."))
+    if (auto large = pair_of(subject, "Large discs", {}, 8,
+                             "Far from focus, the outline of a disc shows most. The rims of the barrel cut "
+                             "it to a lemon, on opposite sides in front of focus and behind."))
         figures.push_back(std::move(*large));
-    if (auto small = pair_of(
-            subject, "Small discs", {}, 2,
-            "Near the focus the aberrations of the field show most: coma's one bright edge, astigmatism "
-            "that draws discs out along circles on one side of focus and along radii on the "
-            "other, which is what swirls."))
+    if (auto small = pair_of(subject, "Small discs", {}, 2,
+                             "Near focus, the aberrations of the field show most. Coma makes one edge of a "
+                             "disc bright. Astigmatism stretches discs along circles on one side of focus "
+                             "and along radii on the other, so the blur swirls."))
         figures.push_back(std::move(*small));
     return figures;
 }
@@ -115,24 +113,25 @@ std::vector<Figure> drawn_fields(const Subject& subject) {
         const char* words;
         const LensChoice* character;
     } settings[] = {
-        {"--cats-eye 0.8", "The barrel: a second circle as wide as the pupil, shifted towards the corner.",
+        {"--cats-eye 0.8",
+         "The barrel cuts discs by a second circle, which is as wide as the pupil and shifted towards the "
+         "corner.",
          &barrel},
         {"--coma 1",
-         "Coma: zones of the pupil are imaged larger and larger; the tail side fades, one bright edge stays.",
+         "Coma: outer zones of the pupil form larger images. One edge of a disc stays bright; the side of "
+         "the tail fades.",
          &coma},
         {"--astigmatism 2",
-         "Astigmatism: two foci, one for each direction of detail. Discs swirl about the middle on one side "
-         "of "
-         "focus and point to it on the other.",
+         "Astigmatism: lines in two directions have two foci. Discs are stretched around the middle of the "
+         "frame on one side of focus, and towards it on the other.",
          &astigmatism},
         {curved.c_str(),
-         "Field curvature: the corners focus nearer to the lens, as in all simple lenses. Lights behind "
-         "the focus make larger discs there; lights in front make smaller ones, or fall behind.",
+         "Field curvature: the corners focus nearer to the lens, as in all simple lenses. There, lights "
+         "behind focus have larger discs; lights in front have smaller ones, or are behind the curved focus.",
          &curvature},
         {coloured.c_str(),
-         "Lateral colour: the blue image is larger than the red one. Discs get a blue edge outward and a red "
-         "one "
-         "inward, on both sides of the focus.",
+         "Lateral colour: the blue image is larger than the red one. Discs have a blue outer edge and a red "
+         "inner edge, on both sides of focus.",
          &colour}};
     std::vector<Figure> figures{coma_principle(subject)};
     for (const auto& setting : settings)

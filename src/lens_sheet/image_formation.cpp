@@ -151,15 +151,13 @@ Figure stops(const Subject& subject) {
         svg.text({kLeft - 8, y}, number(kScenes[r].distance, 1) + " f", "name", Anchor::End);
         svg.text({kLeft - 8, y + 15}, "M = " + number(kScenes[r].magnification(), 1), "tick", Anchor::End);
     }
-    return {
-        svg.str(),
-        "The cones of a point in front of the focus (it meets behind the film), in focus, and behind it (it "
-        "meets "
-        "before the film). The stop narrows all three; the focused point stays where it is, the others "
-        "shrink "
-        "until through a pinhole everything is sharp, as if there were no lens. Below, the two discs as this "
-        "lens makes them, each row to one scale, for a focus at 3f, 2f and 1.5f.",
-        12};
+    return {svg.str(),
+            "Cones of light of three points: one in front of focus, which converges behind the film; one in "
+            "focus; and one behind focus, which converges in front of the film. The stop narrows all three "
+            "cones. The focused point does not change; the two discs shrink until, through a pinhole, "
+            "everything is sharp. The rows below show the two discs of this lens, focused at 3f, 2f and "
+            "1.5f; each row has one scale.",
+            12};
 }
 
 }  // namespace

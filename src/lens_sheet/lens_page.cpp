@@ -17,8 +17,8 @@ Section aberrations(const Subject& subject) {
     Section section{
         "aberrations",
         "Aberrations",
-        "The same five lines of the spectrum throughout: <b>g</b> 436 nm, dotted; <b>F</b> 486 nm, "
-        "long dashes; <b>e</b> 546 nm, dash and dot; <b>d</b> 588 nm, solid; <b>C</b> 656 nm, dashes.",
+        "All curves use five lines of the spectrum: <b>g</b> 436 nm, dotted; <b>F</b> 486 nm, long dashes; "
+        "<b>e</b> 546 nm, dash and dot; <b>d</b> 588 nm, solid; <b>C</b> 656 nm, dashes.",
         {zone_curves(subject), colour_curve(subject), axial_fan(subject)}};
     append(section.figures, ray_fan_figures(subject));
     append(section.figures, field_curves(subject));
@@ -34,24 +34,21 @@ std::vector<Section> sections_of(const Subject& subject) {
     sections.push_back(aberrations(subject));
     Figures seidel = seidel_figures(subject);
     if (!seidel.empty()) sections.push_back({"seidel", "Third-order sums", "", std::move(seidel)});
-    sections.push_back(
-        {"rays",
-         "Rays near the focus",
-         "Light of each wavelength in its own colour; where colours lie on each other they add up "
-         "to white. Caustics, the bright envelopes of rays, become the rims and cores of discs.",
-         {rays_near_focus(subject, 3), rays_near_focus(subject, 15)}});
-    sections.push_back(
-        {"texture",
-         "Bokeh texture",
-         "All discs of the axis at once: M. Kawase's texture (CEDEC 2008), with the exact light of "
-         "each ring.",
-         {bokeh_textures(subject), squared_column(subject)}});
-    sections.push_back(
-        {"field", "Over the field",
-         subject.prescription()
-             ? ""
-             : "The drawing shows the axis alone; options set the rest of the field. Five of them:",
-         field_discs(subject)});
+    sections.push_back({"rays",
+                        "Rays near the focus",
+                        "Each wavelength has its own colour; where all overlap, they add up to white. "
+                        "Caustics, the bright envelopes of rays, become the rims and cores of discs.",
+                        {rays_near_focus(subject, 3), rays_near_focus(subject, 15)}});
+    sections.push_back({"texture",
+                        "Bokeh texture",
+                        "All discs on the axis in one picture: the texture of M. Kawase (CEDEC 2008), with "
+                        "the exact light of each ring.",
+                        {bokeh_textures(subject), squared_column(subject)}});
+    sections.push_back({"field", "Over the field",
+                        subject.prescription() ? ""
+                                               : "The curves of this lens describe the axis only; options "
+                                                 "describe the rest of the field. Five of them:",
+                        field_discs(subject)});
     Figures sharpness{spot_diagrams(subject)};
     append(sharpness, mtf_figures(subject));
     sections.push_back({"spots", "Sharpness", "", std::move(sharpness)});
@@ -61,7 +58,7 @@ std::vector<Section> sections_of(const Subject& subject) {
     if (auto sum = sum_of_discs(subject)) formation.push_back(std::move(*sum));
     sections.push_back(
         {"formation", "How the image forms",
-         "1/f = 1/a + 1/a′: what stands at a is sharp at a′, magnified M = a′/a = f/(a − f) times.",
+         "1/f = 1/a + 1/a′: an object at the distance a is sharp at a′, magnified by M = a′/a = f/(a − f).",
          std::move(formation)});
     sections.push_back({"numbers", "Numbers", "", number_tables(subject)});
     return sections;

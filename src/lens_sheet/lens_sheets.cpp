@@ -75,12 +75,11 @@ Result<LensCard> lens_card(const std::string& name_or_file, int threads, Workers
 }
 
 std::string lens_index(const std::vector<LensCard>& cards) {
-    std::string text = "<header><p class=\"kicker\">petzval · contact sheet</p><h1>" +
-                       std::to_string(cards.size()) +
-                       " lenses</h1><p class=\"history\">Each with the disc that it makes of a point of "
-                       "light a little in front of "
-                       "the focus (left) and a little behind (right), wide open. A click opens its sheet; <a "
-                       "href=\"comparison.html\">all side by side</a>.</p></header>\n<div class=\"cards\">\n";
+    std::string text =
+        "<header><p class=\"kicker\">petzval · contact sheet</p><h1>" + std::to_string(cards.size()) +
+        " lenses</h1><p class=\"history\">For each lens, the disc of a point of light slightly in front of "
+        "focus (left) and slightly behind (right), wide open. Click a lens to open its sheet; <a "
+        "href=\"comparison.html\">all side by side</a>.</p></header>\n<div class=\"cards\">\n";
     for (const LensCard& card : cards) text += card_of(card);
     return html_page("Lenses of petzval", text + "</div>\n", {});
 }
@@ -88,14 +87,11 @@ std::string lens_index(const std::vector<LensCard>& cards) {
 std::string lens_comparison(const std::vector<LensCard>& cards) {
     std::string text =
         "<header><p class=\"kicker\">petzval · comparison</p><h1>Side by side</h1><p class=\"history\">For "
-        "each lens "
-        "its aberration curve (the dotted line is the sensor), rays near the focus, the bokeh texture and "
-        "the discs "
-        "it makes, in front of focus and behind. Scales follow each lens's own blur; <a "
-        "href=\"index.html\">contact "
-        "sheet</a>.</p></header>\n<div class=\"scroll\"><table "
-        "class=\"sheet\"><tr><th>lens</th><th>aberration</th>"
-        "<th>rays near focus</th><th>texture</th><th>in front, behind</th><th></th></tr>\n";
+        "each lens: its aberration curve (the dotted line is the sensor), rays near focus, bokeh texture, "
+        "and discs in front of focus and behind. The scale depends on the blur of the lens; <a "
+        "href=\"index.html\">contact sheet</a>.</p></header>\n<div class=\"scroll\"><table "
+        "class=\"sheet\"><tr><th>lens</th><th>aberration</th><th>rays near focus</th><th>texture</th><th>in "
+        "front, behind</th><th></th></tr>\n";
     for (const LensCard& card : cards) text += row_of(card);
     return html_page("Lenses of petzval, side by side", text + "</table></div>\n", {});
 }

@@ -107,15 +107,15 @@ std::vector<Figure> mtf_figures(const Subject& subject) {
                "°";
     };
     figures.front().caption =
-        "How much contrast is left of finer and finer stripes, in white light, where the axis is at its "
-        "best. " +
-        (has_field ? "Red: axis; blue: " + degrees(fields[1]) + "; violet: " + degrees(fields[2]) +
-                         " off it, for stripes across the radius (solid) and along it (dashed)."
+        "Contrast of fine stripes in white light, at best focus on the axis. " +
+        (has_field ? "Red: on the axis; blue: " + degrees(fields[1]) + "; violet: " + degrees(fields[2]) +
+                         " off the axis, for stripes across the radius (solid) and along it (dashed)."
                    : std::string()) +
         " Dotted: a perfect lens.";
     figures.back().caption =
-        "Two stops down. From rays, times the limit that diffraction sets: a few percent low where "
-        "aberrations are about one wave. The axis ends at 1500 line pairs over the frame's width.";
+        "Two stops down. The contrast is computed from rays and multiplied by the limit of diffraction; it "
+        "is a few percent too low where aberrations are about one wave. The scale ends at 1500 line pairs "
+        "per frame width.";
     return figures;
 }
 

@@ -79,7 +79,7 @@ Figure remarks(const LensFacts& f) {
     std::string text;
     for (const std::string& remark : f.notes) text += "<p class=\"source\">Note: " + escaped(remark) + "</p>";
     for (const std::string& remark : f.warnings)
-        text += "<p class=\"source\">Mind: " + escaped(remark) + "</p>";
+        text += "<p class=\"source\">Warning: " + escaped(remark) + "</p>";
     if (!f.summary.source.empty())
         text += "<p class=\"source\">Source: " + escaped(f.summary.source) + "</p>";
     return {text, "", 12};
@@ -108,17 +108,17 @@ std::string header_of(const Subject& subject) {
     if (!is_named) text += "<p class=\"history\">" + escaped(capitalised(s.title)) + ".</p>\n";
     if (!s.history.empty()) text += "<p class=\"history\">" + escaped(s.history) + "</p>\n";
     text += "</div><figure style=\"--share:1\">" + disc_pair(subject, 220) +
-            "<figcaption>A point of light a little in front of the focus, and a little behind.</figcaption>"
-            "</figure></div>\n<div class=\"facts\">";
+            "<figcaption>A point of light slightly in front of focus, and slightly "
+            "behind.</figcaption></figure></div>\n<div class=\"facts\">";
     text += fact(significant(subject.focal_length_mm(), 4) + " mm", "focal length");
     text += fact("f/" + significant(subject.f_number(), 3), "wide open");
-    text += fact(significant(2 * subject.axis().reach_um(0), 3) + " µm", "blur left in focus, across");
+    text += fact(significant(2 * subject.axis().reach_um(0), 3) + " µm", "diameter of the blur in focus");
     if (f.has_prescription) {
         text += fact(significant(2 * f.field_deg, 3) + "°", "field");
         text += fact(std::to_string(f.seidel_per_surface.size()), "surfaces");
         text += fact(significant(f.bfl_mm, 4) + " mm", "back focus");
     } else {
-        text += fact(model_words(s.model), "how it is known");
+        text += fact(model_words(s.model), "model");
     }
     return text + "</div></header>\n";
 }

@@ -79,10 +79,9 @@ std::vector<Figure> ray_fan_figures(const Subject& subject) {
         }
     return {
         {svg.str(),
-         "Ray fans at 0.7 of the field and at its edge: by how much light that went through the stop at that "
-         "height misses the chief ray's place on the sensor. Coma bends a fan, astigmatism tilts one more "
-         "than "
-         "the other, lateral colour parts the wavelengths; curves end where a rim cuts the beam.",
+         "Ray fans at 0.7 of the field and at its edge: distance on the sensor between a ray through that "
+         "height of the stop and the chief ray. Coma bends a fan, astigmatism tilts one fan more than the "
+         "other, lateral colour separates the wavelengths. A curve ends where a rim cuts the beam.",
          12}};
 }
 

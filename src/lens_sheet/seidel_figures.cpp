@@ -59,12 +59,12 @@ Figure bars(const LensFacts& facts) {
         draw_panel(svg, facts, k, double(k) * kPanel + (k >= 5 ? 34 : 0), kPanel, k < 5 ? sums : colours);
     svg.text({0, kHeight - 10}, "full height of the first five: ±" + significant(sums, 2) + " mm", "note");
     svg.text({5 * kPanel + 34, kHeight - 10}, "of the colours: ±" + significant(colours, 2) + " mm", "note");
-    return {
-        svg.str(),
-        "Each surface's share, then the sum (last bar). Designers balance large shares against each other: "
-        "where single bars tower over the sum, surfaces work hard, the lens is sensitive to its making, and "
-        "higher orders remain. Undercorrected spherical aberration has S I above 0.",
-        12};
+    return {svg.str(),
+            "Contribution of each surface, then the sum (last bar). Designers balance large contributions "
+            "against each other. Single bars much larger than the sum mean that the lens is sensitive to "
+            "tolerances and has residual aberrations of higher order. Undercorrected spherical aberration "
+            "has S I above 0.",
+            12};
 }
 
 Figure table(const LensFacts& facts) {

@@ -130,13 +130,11 @@ Figure spot_diagrams(const Subject& subject) {
         x += 92;
     }
     svg.text({x + 10, bottom}, "dashed circle: Airy disc, radius " + significant(airy_um, 2) + " µm", "tick");
-    return {
-        svg.str(),
-        "Each dot is one ray of an even pattern over the pupil, where it meets a sensor that stands nearer "
-        "to "
-        "the lens (−) or farther (+) than best focus. Where dots lie close a photograph is bright; a spot "
-        "inside of the Airy circle is as good as light allows.",
-        12};
+    return {svg.str(),
+            "Each dot is one ray of an even pattern over the pupil, on a sensor nearer to the lens (−) or "
+            "farther away (+) than best focus. A photograph is bright where dots are dense. A spot inside "
+            "the Airy circle is as small as diffraction allows.",
+            12};
 }
 
 }  // namespace petzval::lens_sheet

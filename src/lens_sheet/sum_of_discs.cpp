@@ -101,12 +101,11 @@ std::optional<Figure> sum_of_discs(const Subject& subject) {
         svg.text({x, 14}, kPanels[i].words, "title");
         svg.image({x, kTop}, kCell, high, pictures[i]);
     }
-    return Figure{
-        svg.str(),
-        "A picture out of focus is the shape of the aperture, once for each point, laid over one "
-        "another: here five blades, behind the focus. Lamps show the shape; evenly lit surfaces only "
-        "show it as their soft edge.",
-        12};
+    return Figure{svg.str(),
+                  "A picture out of focus is a sum of aperture shapes, one for each point. This aperture has "
+                  "five blades, and the picture is behind focus. Lamps show the shape; evenly lit surfaces "
+                  "show it only in their soft edges.",
+                  12};
 }
 
 }  // namespace petzval::lens_sheet

@@ -148,12 +148,11 @@ Figure bokeh_textures(const Subject& subject) {
     draw(svg, subject, {44, 304}, kWholeBlurs, 3);
     draw(svg, subject, {600, 304}, kNearBlurs, 3);
     return {svg.str(),
-            "Each column is one disc, cut through its middle and exposed for itself: to the left sources in "
-            "front "
-            "of the focus, to the right behind. Turned about its middle, a column becomes the disc. Three "
-            "wavelengths leave rings that stand apart (below); over 31 they melt into the colours "
-            "that a photograph shows. <code>petzval lens table " +
-                escaped(subject.asked()) + " -o table.exr</code> writes the texture for use.",
+            "Each column is a cut through the middle of one disc, with its own exposure: sources in front of "
+            "focus on the left, behind on the right. A column turned about its middle is the disc. Three "
+            "wavelengths leave separate rings (below); 31 and more blend into the colours of a photograph. "
+            "<code>petzval lens table " +
+                escaped(subject.asked()) + " -o table.exr</code> writes the texture to a file.",
             12};
 }
 
@@ -173,18 +172,18 @@ Figure squared_column(const Subject& subject) {
         svg.place({x, 0}, plot.str());
         x += 275;
     }
-    const std::string verdict =
-        worst < 0.02 ? "For this lens the two agree within 2 % of the light everywhere."
-                     : "For this lens the squared column puts up to <b>" + number(100 * worst, 0) +
-                           " %</b> of a disc's light where it does not fall.";
+    const std::string verdict = worst < 0.02
+                                    ? "For this lens the two agree within 2 % of the light everywhere."
+                                    : "For this lens the squared column misplaces up to <b>" +
+                                          number(100 * worst, 0) + " %</b> of the light of a disc.";
     return {
         svg.str(),
-        "<b>Where exact light differs from the talk.</b> The talk counts rays along a cut through the cone "
-        "and squares the count, since light spreads in two directions (dashed). Exact is the energy of "
-        "the ring that a zone of the pupil becomes (solid; green light). With y the height in the pupil and "
-        "v the radius on the sensor, the talk has (dy/dv)², the ring (y/v)(dy/dv): the same for a lens "
-        "without aberration, where v is in proportion to y. Otherwise squaring overstates rims, where "
-        "dy/dv grows without bound, and misses the peak in the middle, where y/v does. " +
+        "<b>Difference between exact light and the talk.</b> The talk counts rays along a cut through the "
+        "cone and squares the count, because light spreads in two directions (dashed). The exact value is "
+        "the energy of the ring that a zone of the pupil forms (solid; green light). With the height y in "
+        "the pupil and the radius v on the sensor, the talk has (dy/dv)² and the ring (y/v)(dy/dv). Both are "
+        "equal for a lens without aberration, where v is proportional to y. Otherwise the square makes rims "
+        "too bright, where dy/dv grows without limit, and misses the peak in the middle, where y/v does. " +
             verdict,
         12};
 }

@@ -148,12 +148,11 @@ Figure wavefronts(const Subject& subject) {
     svg.image({3 * kCell, 24}, 14, kCell - 16, picture_uri(bar));
     svg.text({3 * kCell + 18, 34}, "ahead", "tick");
     svg.text({3 * kCell + 18, kCell + 6}, "behind", "tick");
-    return {
-        svg.str(),
-        "How far the wavefront in the pupil is ahead of (orange) or behind (blue) a perfect sphere about the "
-        "image, in waves of 546 nm, at best focus. Under a quarter of a wave peak to valley nothing but "
-        "diffraction is seen.",
-        8};
+    return {svg.str(),
+            "Distance by which the wavefront in the pupil is ahead of (orange) or behind (blue) a perfect "
+            "sphere around the image, in waves of 546 nm, at best focus. Below a quarter of a wave peak to "
+            "valley, only diffraction is visible.",
+            8};
 }
 
 // One cell of the diffraction figure.
@@ -249,17 +248,16 @@ std::vector<Figure> wave_figures(const Subject& subject) {
             small[std::size_t(i - 4)] =
                 small_cell(subject, i < 6 ? -coc_um : coc_um, scale, um_per_px, i % 2 == 1);
     });
-    return {
-        wavefronts(subject),
-        drawn(std::move(focus), kFocusPx, "In focus, stopped down",
-              "Where diffraction rules: the figure grows with the f-number, its first dark ring at 1.22 λN "
-              "(dashed, for 546 nm). "
-              "Edges of the iris throw spikes. Bright parts are held back so that rings show."),
-        drawn(std::move(small), kSmallPx, "A small sensor, 4.8 mm wide, lens wide open",
-              "The same design made " + significant(1 / scale, 2) +
-                  " times smaller, as in a compact camera: light does not shrink along, so discs of ±" +
-                  significant(coc_um, 2) +
-                  " µm carry rings that rays alone do not have. <code>--wave</code> draws them.")};
+    return {wavefronts(subject),
+            drawn(std::move(focus), kFocusPx, "In focus, stopped down",
+                  "Diffraction dominates: the pattern grows with the f-number, and its first dark ring is at "
+                  "1.22 λN (dashed, for 546 nm). Straight edges of the iris make spikes. Bright parts are "
+                  "darkened so that rings are visible."),
+            drawn(std::move(small), kSmallPx, "A small sensor, 4.8 mm wide, lens wide open",
+                  "The same design made " + significant(1 / scale, 2) +
+                      " times smaller, as in a compact camera. The wavelength stays the same, so discs of ±" +
+                      significant(coc_um, 2) +
+                      " µm have rings that rays cannot show. <code>--wave</code> draws them.")};
 }
 
 }  // namespace petzval::lens_sheet
