@@ -149,13 +149,15 @@ Status make_scenes(const MakeFlags& flags) {
 }
 
 Status list_scenes(const RunFlags& run) {
+    constexpr std::size_t kNames = 15;  // columns
     std::string text;
     Json scenes = Json::array();
     for (const SceneSummary& scene : scene_list()) {
         const Camera& c = scene.camera;
-        text += scene.name + std::string(scene.name.size() < 10 ? 10 - scene.name.size() : 1, ' ') +
-                scene.purpose + "\n          " + plain(c.focal_length_mm) + " mm f/" + plain(c.f_number) +
-                ", focus " + plain(c.focus_distance_m) + " m, sensor " + plain(c.sensor_width_mm) + " mm" +
+        text += scene.name + std::string(scene.name.size() < kNames ? kNames - scene.name.size() : 1, ' ') +
+                scene.purpose + "\n" + std::string(kNames, ' ') + plain(c.focal_length_mm) + " mm f/" +
+                plain(c.f_number) + ", focus " + plain(c.focus_distance_m) + " m, sensor " +
+                plain(c.sensor_width_mm) + " mm" +
                 (scene.frames > 1 ? ", " + std::to_string(scene.frames) + " frames" : "") + "\n";
         scenes.push_back({{"name", scene.name},
                           {"purpose", scene.purpose},

@@ -68,14 +68,14 @@ void build(World& world, float time) {
 }  // namespace
 
 BuiltInScene cubes() {
-    return {
-        {.name = "cubes",
-         .purpose = "boxes one behind the other, a green one in focus, glowing particles behind and before",
-         .camera =
-             {.focal_length_mm = 50, .sensor_width_mm = 36, .f_number = 1.4, .focus_distance_m = kFocus},
-         .frames = 48,
-         .floor_m = 0},
-        build};
+    return {{.name = "cubes",
+             .purpose =
+                 "boxes one behind the other, a green one in focus, glowing particles behind it and in front",
+             .camera =
+                 {.focal_length_mm = 50, .sensor_width_mm = 36, .f_number = 1.4, .focus_distance_m = kFocus},
+             .frames = 48,
+             .floor_m = 0},
+            build};
 }
 
 }  // namespace petzval::scene

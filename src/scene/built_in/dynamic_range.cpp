@@ -193,12 +193,12 @@ void build(World& world, float) {
 }  // namespace
 
 BuiltInScene dynamic_range() {
-    return {{.name = "dynamic-range",
-             .purpose = "a room at 500 lux before a garden at 7 000 (shade) and 70 000 (sun): blur before or "
-                        "after clipping",
-             .camera =
-                 {.focal_length_mm = 50, .sensor_width_mm = 36, .f_number = 1.4, .focus_distance_m = kFocus}},
-            build};
+    return {
+        {.name = "dynamic-range",
+         .purpose = "a room at 500 lux in front of a garden at 7 000 to 70 000 lux: light far above white",
+         .camera =
+             {.focal_length_mm = 50, .sensor_width_mm = 36, .f_number = 1.4, .focus_distance_m = kFocus}},
+        build};
 }
 
 }  // namespace petzval::scene

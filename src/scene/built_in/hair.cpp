@@ -156,7 +156,7 @@ void build(World& world, float time) {
 BuiltInScene hair() {
     return {
         {.name = "hair",
-         .purpose = "hundreds of strands a pixel wide, in focus before a bright park; leaves near the lens",
+         .purpose = "strands a pixel wide in focus, a bright park behind them, leaves near the lens",
          .camera = {.focal_length_mm = 75, .sensor_width_mm = 36, .f_number = 1.6, .focus_distance_m = 1.43},
          .frames = 48},
         build};

@@ -104,7 +104,7 @@ BuiltInScene hexadrive() {
     return {
         {.name = "hexadrive",
          .purpose =
-             "lights at many depths out to the corners of a wide view, mirrors among them: HexaDrive's demo",
+             "lights at many depths out to the corners of a wide view, and mirrors, as in HexaDrive's demo",
          .camera =
              {.focal_length_mm = 150, .sensor_width_mm = 360, .f_number = 1, .focus_distance_m = kFocus},
          .frames = 48,

@@ -111,13 +111,11 @@ void build(World& world, float) {
 }  // namespace
 
 BuiltInScene lanterns() {
-    return {
-        {.name = "lanterns",
-         .purpose = "lamps far behind, in and close before focus out to the corners: what a barrel and five "
-                    "blades do",
-         .camera =
-             {.focal_length_mm = 50, .sensor_width_mm = 36, .f_number = 1.2, .focus_distance_m = kFocus}},
-        build};
+    return {{.name = "lanterns",
+             .purpose = "lamps far behind focus, in focus and just in front of it, out to the corners",
+             .camera =
+                 {.focal_length_mm = 50, .sensor_width_mm = 36, .f_number = 1.2, .focus_distance_m = kFocus}},
+            build};
 }
 
 }  // namespace petzval::scene

@@ -218,7 +218,7 @@ void build(World& world, float time) {
 
 BuiltInScene post() {
     return {{.name = "post",
-             .purpose = "a wide near post and wires before lamps and lit signs, which slip behind it",
+             .purpose = "a wide post and wires near the lens; lamps and lit signs that move behind the post",
              .camera =
                  {.focal_length_mm = 75, .sensor_width_mm = 36, .f_number = 1.2, .focus_distance_m = kFocus},
              .frames = 48,

@@ -51,7 +51,7 @@ void build(World& world, float time) {
 
 BuiltInScene tori() {
     return {{.name = "tori",
-             .purpose = "patterned tori that turn, from before the lens to far behind focus",
+             .purpose = "patterned tori that turn, from near the lens to far behind focus",
              .camera =
                  {.focal_length_mm = 50, .sensor_width_mm = 36, .f_number = 1.8, .focus_distance_m = kFocus},
              .frames = 48},

@@ -83,8 +83,7 @@ void build(World& world, float time) {
 BuiltInScene unity() {
     return {
         {.name = "unity",
-         .purpose =
-             "cubes, a green one that walks, glowing balls behind and white ones before: Unity's articles",
+         .purpose = "cubes and a green one that walks, glowing and white balls, as in articles about Unity",
          .camera = {.focal_length_mm = 50, .sensor_width_mm = 36, .f_number = 1, .focus_distance_m = 2},
          .frames = 48,
          .floor_m = 0},

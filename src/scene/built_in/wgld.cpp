@@ -56,14 +56,13 @@ void build(World& world, float time) {
 
 // A camera of large format, so that metres blur as the article's units do.
 BuiltInScene wgld() {
-    return {{.name = "wgld",
-             .purpose = "the textured tori of wgld.org's article, near 0.1 to far 30, shaded after it",
-             .camera = {.focal_length_mm = 300,
-                        .sensor_width_mm = 216,
-                        .f_number = 1.4,
-                        .focus_distance_m = kFocus},
-             .frames = 48},
-            build};
+    return {
+        {.name = "wgld",
+         .purpose = "the textured tori of wgld.org's article, depth 0.1 to 30, with the article's shading",
+         .camera =
+             {.focal_length_mm = 300, .sensor_width_mm = 216, .f_number = 1.4, .focus_distance_m = kFocus},
+         .frames = 48},
+        build};
 }
 
 }  // namespace petzval::scene

@@ -127,7 +127,7 @@ Result<double> pose(tinygltf::Model& model, double at_s, const std::string& path
             *place = value_at(*track, at_s);
             ends_s = std::max(ends_s, track->time(track->times.count - 1));
         }
-    if (has_more) warnings.push_back(path + ": its skins and morph targets are not moved");
+    if (has_more) warnings.push_back(path + ": its skins and morph targets do not move");
     return ends_s;
 }
 

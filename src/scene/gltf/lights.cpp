@@ -31,8 +31,8 @@ float Lighting::settle(World& world, Vec3 middle, const std::string& path,
     for (PunctualLight& one : lights) one.light.power *= dimmed;
     char stops[32];
     std::snprintf(stops, sizeof stops, "%.1f", -double(std::log2(dimmed)));
-    warnings.push_back(path + ": its lights are brighter than a day's; all that glows is dimmed by " + stops +
-                       " stops");
+    warnings.push_back(path + ": its lights are brighter than daylight; lights and emission are dimmed by " +
+                       stops + " stops");
     return dimmed;
 }
 

@@ -130,7 +130,7 @@ void add_subject(World& world, const MadeUp& shot, float time) {
 BuiltInScene random_scene(std::uint64_t seed) {
     const MadeUp shot = made_up(seed);
     BuiltInScene scene;
-    scene.summary = {"random", "another scene for every seed, from a still life to a street by night",
+    scene.summary = {"random", "another scene for every seed, from a still life to a street at night",
                      shot.camera, kFrames};
     scene.build = [shot](World& world, float time) { build(world, shot, time); };
     return scene;
