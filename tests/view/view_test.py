@@ -333,6 +333,8 @@ class ViewTest(window.WindowTest):
             expect error no depth
             show nothing
             expect error
+            show hidden
+            expect error --plate
             set engine realtime
             wait
             say error

@@ -121,7 +121,7 @@ void bend_curves(App& app, const Box& box, double most_mm) {
 // Focus of the zones of the pupil, one curve a wavelength.
 void draw_curves(App& app, const Box& box) {
     is_field(app, "curves",
-             "drag sideways to bend them, with Shift green alone; save_curves FILE keeps the lens");
+             "drag sideways to bend the curves, with Shift only green; save_curves FILE saves the lens");
     const LongitudinalAberrationFacts& curves = app.lens_made().curves;
     double most = 1e-9;
     for (const auto& curve : curves.shift_mm)

@@ -110,11 +110,11 @@ Grab grabbed_at(const App& app, const SectionFrame& at, const ImVec2& mouse) {
 const char* help_for(Part part) {
     switch (part) {
         case Part::Stop:
-            return "the stop: drag up and down, the f-number follows";
+            return "the stop: drag up or down to change the f-number";
         case Part::Sensor:
-            return "the sensor: drag sideways, a pixel is 0.01 mm of focus shift";
+            return "the sensor: drag sideways; a pixel is 0.01 mm of focus shift";
         case Part::Rim:
-            return "a rim of the barrel: drag its edge, or all of it along the axis";
+            return "a rim of the barrel: drag its edge, or drag the rim along the axis";
         case Part::None:
             break;
     }
@@ -223,7 +223,7 @@ void drag_blades(App& app, const Box& box, const std::string& name) {
         bool turns = false;
     };
     static Grabbed grab;
-    is_field(app, name, "drag sideways: more blades or fewer; drag the rim: they turn");
+    is_field(app, name, "drag sideways for more or fewer blades; drag the rim to rotate them");
     const ImGuiIO& io = ImGui::GetIO();
     const ImVec2 middle = box.middle();
     // Offset from the middle, to the right and up.

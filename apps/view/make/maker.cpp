@@ -238,7 +238,7 @@ Result<OpenShot> Maker::opened(const Reading& reading) {
         open.shot.detected = {"pushed by another program: " + pushed.name};
         if (!pushed.depth_m.empty())
             open.shot.warnings = {pushed.name +
-                                  ": no camera comes with it; 50 mm on 36 mm at f/2.8 are assumed"};
+                                  ": it has no camera numbers; 50 mm on 36 mm at f/2.8 are assumed"};
     } else if (reading.is_against) {
         auto shot = read_shot(reading.source);
         if (!shot) return shot.error();
@@ -490,7 +490,7 @@ void Maker::look_at_files() {
         if (time == file.time) continue;
         file.time = time;
         const std::lock_guard lock(mutex_);
-        news_.changed.push_back(file.path + (time ? ": has changed; Ctrl+R reads it again"
+        news_.changed.push_back(file.path + (time ? ": has changed; press Ctrl+R to reload it"
                                                   : ": removed; the picture read from it is still shown"));
         news = true;
     }

@@ -182,8 +182,7 @@ Status TevInbox::update(Fields& fields, int version) {
     fields.number<std::uint8_t>();
     const std::string name = fields.text();
     const auto found = canvases_.find(name);
-    if (fields.failed() || found == canvases_.end())
-        return nonsense("an update of a picture that is not there");
+    if (fields.failed() || found == canvases_.end()) return nonsense("an update of an unknown picture");
     Canvas& canvas = found->second;
     const int count = version == 1 ? 1 : fields.number<std::int32_t>();
     if (fields.failed() || count < 1 || count > kMostChannels) return nonsense("not 1 to 64 channels");
@@ -193,7 +192,7 @@ Status TevInbox::update(Fields& fields, int version) {
                        width = fields.number<std::int32_t>(), height = fields.number<std::int32_t>();
     if (fields.failed() || x < 0 || y < 0 || width < 1 || height < 1 || x + width > canvas.width ||
         y + height > canvas.height)
-        return nonsense("an update that reaches beyond its picture");
+        return nonsense("an update outside its picture");
     const std::int64_t pixels = width * height;
     std::vector<std::int64_t> offsets, strides;
     for (int i = 0; i < count; ++i)
@@ -405,7 +404,7 @@ Status push_to_tev(int port, const std::string& name, const Picture& picture) {
     if (connection >= 0) ::setsockopt(connection, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
     if (connection < 0 || ::connect(connection, as_any, sizeof address) != 0) {
         if (connection >= 0) ::close(connection);
-        return Error{ErrorCode::OutputFailed, "nobody listens on " + where + "; start tev first"};
+        return Error{ErrorCode::OutputFailed, "no program listens on " + where + "; start tev first"};
     }
     Packet create(kCreate);
     create.put(std::uint8_t(1)), create.put(name);

@@ -38,7 +38,7 @@ void camera_number(App& app, const char* field, const char* label, const std::op
     };
     if (assumed) ImGui::PushStyleColor(ImGuiCol_Text, kAmber);
     slider_widget(app, name, assumed ? std::string(label) + " (assumed)" : label, ends,
-                  found ? origin() + "; right click: as in the file" : "");
+                  found ? origin() + "; right click: the number of the file" : "");
     if (assumed) ImGui::PopStyleColor();
 }
 
@@ -51,7 +51,7 @@ void camera_panel(App& app) {
     const bool has_depth = depth && !depth->counts.empty() && depth->farthest_m > depth->nearest_m;
     camera_number(app, "f_number", "f-number", found.f_number, {0.7, 22, "f/%.3g", true});
     if (app.shot() && app.shot()->shot.has_radii())
-        ImGui::TextWrapped("the file has blur radii: aperture and focus are in them already");
+        ImGui::TextWrapped("the file has blur radii, which include aperture and focus");
     camera_number(app, "focus_distance_m", "focus", found.focus_distance_m,
                   {has_depth ? depth->nearest_m : 0.1, has_depth ? depth->farthest_m : 100, "%.4g m", true});
     camera_number(app, "focal_length_mm", "focal length", found.focal_length_mm, {8, 400, "%.4g mm", true});

@@ -97,7 +97,7 @@ void coverage_plot(App& app, const std::string& name, std::span<const DeepSample
     const ImVec2 size{std::max(1.0f, ImGui::GetContentRegionAvail().x), 4 * ImGui::GetFontSize()};
     const Scale scale{range, from, {from.x + size.x, from.y + size.y}};
     ImGui::Dummy(size);
-    is_field(app, "coverage " + name, "how much is covered from the front, over depth; a step is a sample");
+    is_field(app, "coverage " + name, "coverage from the front, by depth; each step is a sample");
     ImDrawList* list = ImGui::GetWindowDrawList();
     list->AddRectFilled(scale.from, scale.to, IM_COL32(25, 25, 25, 255));
     const auto x_of = [&](const DeepSample& sample) {

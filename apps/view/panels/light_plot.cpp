@@ -32,8 +32,7 @@ void light_plot(App& app) {
     const ImVec2 from = ImGui::GetCursorScreenPos();
     const ImVec2 size{std::max(1.0f, ImGui::GetContentRegionAvail().x), 5 * ImGui::GetFontSize()};
     ImGui::InvisibleButton("light", size);
-    is_field(app, "light histogram",
-             "light of the picture shown, over stops; the line is 1 at this exposure");
+    is_field(app, "light histogram", "light of the shown picture, in stops; the line is 1 at this exposure");
     ImDrawList* list = ImGui::GetWindowDrawList();
     list->AddRectFilled(from, {from.x + size.x, from.y + size.y}, IM_COL32(25, 25, 25, 255));
     const ImU32 colours[]{IM_COL32(235, 80, 70, 150), IM_COL32(90, 200, 90, 150),

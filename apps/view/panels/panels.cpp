@@ -150,12 +150,12 @@ std::string about_side(const std::string& what) {
     static const std::map<std::string, std::string> known{
         {"sharp", "the picture before the blur"},
         {"against", "the second picture"},
-        {"cpu", "the same frame, computed by the CPU"},
+        {"cpu", "the same frame, drawn by the CPU"},
         {"coc", "signed blur radii: near blue, far orange"},
         {"depth", "near bright, far dark"},
         {"scatter", "engine for final frames"},
-        {"gather", "quick engine for previews"},
-        {"gaussian", "quickest engine; its blur has no discs"},
+        {"gather", "fast engine for previews"},
+        {"gaussian", "fastest engine; its blur has no discs"},
         {"sprites", "gather, with each bright point drawn as a disc"},
         {"realtime", "GPU passes for games"},
         {"reference", "traced by many rays: slow, the definition of a correct result"}};
@@ -298,11 +298,11 @@ void colours_of(App& app, int x, int y) {
 // All that the files say of the picked pixel.
 void pixel_panel(App& app) {
     if (!app.state.pick || !app.shot())
-        return ImGui::TextWrapped("click on a pixel, with the right button to keep the focus");
+        return ImGui::TextWrapped("click a pixel; a right click keeps the focus");
     const Shot& shot = app.shot()->shot;
     const int x = app.state.pick->x + shot.place.display_window.x0 - shot.place.data_window.x0;
     const int y = app.state.pick->y + shot.place.display_window.y0 - shot.place.data_window.y0;
-    if (!shot.colour.rect().contains(x, y)) return ImGui::TextWrapped("outside of the picture");
+    if (!shot.colour.rect().contains(x, y)) return ImGui::TextWrapped("outside the picture");
     ImGui::Text("pixel %d, %d", app.state.pick->x, app.state.pick->y);
     if (const auto* depth = std::get_if<DepthMetres>(&shot.depth))
         ImGui::Text("depth %.6g m", double(depth->plane(x, y)));

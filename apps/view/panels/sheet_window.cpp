@@ -60,7 +60,7 @@ void draw_sheet(App& app) {
     bool open = true;
     if (ImGui::Begin("This picture, many looks", &open,
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoCollapse)) {
-        ImGui::TextWrapped("click one to use it; Ctrl+Z takes it back");
+        ImGui::TextWrapped("click one to use it; Ctrl+Z undoes it");
         const Rect frame = app.frame();
         const float shape = frame.empty() ? 0.6f : float(frame.height()) / float(frame.width());
         const int columns = columns_of(int(app.sheet_tiles().size()), shape, ImGui::GetContentRegionAvail());

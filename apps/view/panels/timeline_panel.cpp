@@ -34,7 +34,7 @@ void draw_buttons(App& app) {
         ImGui::TextColored({1, 0.86f, 0.35f, 1}, "focus %.4g m", *focus);
     }
     button(line.playing ? "stop" : "play", "toggle shot.playing",
-           "Shift-drag on the line below: the range that is played");
+           "Shift-drag on the line below sets the range that is played");
     button(line.rack_clicks > 0 ? "stop rack" : "rack", "rack",
            "click the subject in the first frame of the range, then the subject in the last");
     button("set key", "key_focus");
@@ -49,7 +49,7 @@ void draw_buttons(App& app) {
     button("load track", "load_track track.csv", "track.csv");
     if (!app.is_live()) return;
     flowing_switch(app, "record camera", "scene.recording");
-    button("save path", "save_path path.csv", "where the camera went, path.csv");
+    button("save path", "save_path path.csv", "path of the camera, path.csv");
     button("load path", "load_path path.csv", "path.csv");
 }
 

@@ -148,7 +148,7 @@ Status App::bend_lens(double zone, double by_mm, double only_nm) {
 
 Status App::push(int port) {
     const auto picture = sides_[0].whole;
-    if (!picture) return Error{ErrorCode::InvalidArgument, "nothing has been made yet"};
+    if (!picture) return Error{ErrorCode::InvalidArgument, "no frame has been made yet"};
     const std::string name = "petzval: " + state.choice.input.path;
     start_saving("127.0.0.1:" + std::to_string(port),
                  [picture, port, name] { return push_to_tev(port, name, *picture); });
@@ -298,7 +298,8 @@ std::string App::waits_for() const {
     const std::string& path = state.choice.input.path;
     if (!path.empty() || !listener_) return "reading " + path + " …";
     return "waiting for a picture: a renderer that pushes to tev at 127.0.0.1:" +
-           std::to_string(setup_.listen_port) + " shows here; with a channel Z in metres it can be focused";
+           std::to_string(setup_.listen_port) +
+           " is shown here; a picture with a channel Z in metres can be focused";
 }
 
 bool App::is_busy() const {
@@ -313,7 +314,7 @@ Status App::may_write(const std::string& name) const {
 }
 
 void App::save(const std::string& name) {
-    if (!shot_) return void(error = "nothing is open yet");
+    if (!shot_) return void(error = "no picture is open yet");
     const std::string path = of_this_frame(name);
     if (const Status fine = may_write(path); !fine) return void(error = fine.error().message);
     if (is_live()) {
@@ -344,8 +345,7 @@ void App::record(const std::string& path) {
             frames.push_back({scene_wish(frame), *pattern ? (*pattern)->path(frame) : path});
     if (frames.size() > 1 && !*pattern)
         return void(
-            error =
-                path + ": a name for many frames needs a place for the frame number, such as scene-####.exr");
+            error = path + ": the name of many frames must contain the frame number, such as scene-####.exr");
     if (!path.ends_with(".exr") && !path.ends_with(".png"))
         return void(error = path + ": the name must end in .exr (sharp, with depth) or .png (as shown)");
     for (const Recorded& one : frames)
@@ -387,7 +387,7 @@ void App::take_news() {
     for (const std::string& line : news.changed) notice = line;
     if (!news.lost.empty()) {
         setup_.session = setup_.cpu_session;
-        error = news.lost + "; the CPU makes all from here on";
+        error = news.lost + "; the CPU draws from now on";
     }
     for (Print& print : darkroom_.prints()) take_print(std::move(print));
     for (LensMade& made : bench_.news()) take_lens(std::move(made));

@@ -49,7 +49,7 @@ void App::take_shot(ReadShot read) {
     if (!setup_.tone_is_chosen && shot_->shot.display_referred) state.choice.develop.tone = ToneCurve::None;
     notice = shot_->shot.warnings.empty() ? "" : shot_->shot.warnings.back();
     if (shot_->shot.depth_plane().empty()) {
-        notice = "no depth: the sharp picture is shown; the panel Input says why";
+        notice = "no depth: the sharp picture is shown; see the panel Input";
         forget_frames();
     }
     if (state.following && shot_->subject_m) state.choice.camera.focus_distance_m = shot_->subject_m;
@@ -81,7 +81,7 @@ void App::settle_choice() { history_.settle(chosen()); }
 Status App::undo(bool again) {
     settle_choice();
     auto step = again ? history_.redo() : history_.undo();
-    if (!step) return Error{ErrorCode::InvalidArgument, again ? "nothing to do again" : "nothing to undo"};
+    if (!step) return Error{ErrorCode::InvalidArgument, again ? "nothing to redo" : "nothing to undo"};
     step->choice.frame = state.choice.frame;
     state.choice = std::move(step->choice);
     state.timeline.keys = std::move(step->keys);

@@ -36,9 +36,9 @@ Status pick(App& app, const Words& words) {
 Status focus(App& app, const Words& words) {
     if (Status done = pick(app, words); !done) return done;
     if (app.shot() && app.shot()->shot.has_radii())
-        return invalid("the file has blur radii, not depth: its focus cannot be moved");
+        return invalid("the file has blur radii instead of depth, so its focus is fixed");
     const auto depth = app.depth_near(*app.state.pick);
-    if (!depth) return invalid("this pixel has no depth, as sky has none: click something else");
+    if (!depth) return invalid("this pixel has no depth, like sky; click another pixel");
     if (Status done = set_field(app, "focus", text_of(*depth, 6)); !done) return done;
     app.notice = "focus " + text_of(*depth, 4) + " m";
     Timeline& line = app.state.timeline;
@@ -112,7 +112,7 @@ Status is_there(const App& app, const std::string& shown) {
         return invalid("there is no second picture; give --against FILE");
     if (app.shot() &&
         ((shown == "hidden" && !app.shot()->hidden) || (shown == "holdout" && !app.shot()->holdout)))
-        return invalid("show " + shown + ": there is none; give --" + (shown == "hidden" ? "behind" : shown));
+        return invalid("show " + shown + ": there is none; give --" + (shown == "hidden" ? "plate" : shown));
     return Done{};
 }
 
@@ -125,14 +125,15 @@ Status show(App& app, const Words& words) {
 // Shows a buffer of the scene's article, by its label.
 Status buffer(App& app, const Words& words) {
     const Article* article = article_of(app.setup().scene);
-    if (!article) return invalid("this is not an article; --scene hexadrive, wgld and unity are");
+    if (!article)
+        return invalid("this scene has no buffers; start the window with --scene hexadrive, wgld or unity");
     for (const ArticleBuffer& one : article->buffers) {
         if (one.label != words[0]) continue;
         if (!one.stage.empty())
             if (Status done = set_field(app, "gather.stage", one.stage); !done) return done;
         return show(app, {one.shown});
     }
-    return invalid("buffer " + words[0] + ": the article has no such buffer");
+    return invalid("buffer " + words[0] + ": this scene has no such buffer");
 }
 
 // The other side of the wipe: something to show, or an engine.
@@ -270,15 +271,16 @@ Status bend(App& app, const Words& words) {
         if (const auto number = number_of(word)) numbers.push_back(*number);
     const bool fine = numbers.size() == words.size() && (words.size() == 2 || words.size() == 3) &&
                       numbers[0] >= 0 && numbers[0] <= 1 && std::abs(numbers[1]) < 1000;
-    if (!fine) return invalid("bend needs a zone of 0 to 1, millimetres, and perhaps a wavelength in nm");
+    if (!fine)
+        return invalid("bend needs a zone from 0 to 1 and millimetres; a wavelength in nm is optional");
     return app.bend_lens(numbers[0], numbers[1], words.size() == 3 ? numbers[2] : 0);
 }
 Status save_curves(App& app, const Words& words) {
-    if (!app.bent()) return invalid("no curve has been bent yet; L shows them");
+    if (!app.bent()) return invalid("no curve has been bent yet; press L to show the curves");
     if (Status fine = app.may_write(words[0]); !fine) return fine;
     if (Status done = write_text(words[0], lens_file_text(*app.bent())); !done) return done;
     app.state.choice.look.lens.name = words[0];
-    app.notice = "wrote " + words[0] + ", and uses it; --lens takes it";
+    app.notice = "wrote " + words[0] + ", and uses it; load it elsewhere with --lens";
     return Done{};
 }
 Status push(App& app, const Words& words) {
@@ -315,52 +317,52 @@ const std::vector<Command>& commands() {
     static const std::vector<Command> all{
         {"focus", "X Y", "focus on the surface at this pixel", focus},
         {"pick", "X Y", "print the values of this pixel", pick},
-        {"focus_by", "STEPS", "focus farther by fiftieths, or nearer", focus_by},
-        {"stop_by", "STEPS", "close the aperture by thirds of a stop, or open it", stop_by},
-        {"set", "FIELD VALUE", "any field of camera, look and view, such as lens.blades", set},
-        {"toggle", "FIELD", "a switch", toggle},
-        {"exposure_by", "STOPS", "brighter, or darker", exposure_by},
-        {"channel", "rgb|r|g|b|a", "one channel; again: all", channel},
-        {"buffer", "NAME", "of an article: one of its buffers", buffer},
-        {"show", "NAME", "result, sharp, against, coc, depth, or a buffer of an engine", show},
-        {"wipe", "NAME|off", "compare with sharp, against, coc, depth, another engine, the cpu", wipe},
-        {"zoom", "fit|in|out|FACTOR [X Y]", "about the middle, or a pixel", zoom},
+        {"focus_by", "STEPS", "focus 2 % farther per step; negative: nearer", focus_by},
+        {"stop_by", "STEPS", "close the aperture by a third of a stop per step; negative: open it", stop_by},
+        {"set", "FIELD VALUE", "set a field of camera, look or view, such as lens.blades", set},
+        {"toggle", "FIELD", "switch a field on or off", toggle},
+        {"exposure_by", "STOPS", "brighten the display; negative: darken it", exposure_by},
+        {"channel", "rgb|r|g|b|a", "show one channel; the same again shows all", channel},
+        {"buffer", "NAME", "show a buffer of a published method", buffer},
+        {"show", "NAME", "show result, sharp, against, coc, depth, or a buffer of an engine", show},
+        {"wipe", "NAME|off", "compare with sharp, against, coc, depth, another engine or cpu", wipe},
+        {"zoom", "fit|in|out|FACTOR [X Y]", "zoom around the middle, or around a pixel", zoom},
         {"pan", "DX DY", "move the picture by pixels", pan},
-        {"save", "FILE", "the frame at the look's quality, as defocus writes it", save},
-        {"copy", "", "the command that makes this frame, to the clipboard", copy},
-        {"load_look", "FILE", "", load_look},
-        {"preset", "NAME", "a look that ships, or one of your own", preset},
-        {"sheet", "LENS,LENS|presets|off", "this picture through each of them, in a window to choose from",
-         sheet},
-        {"save_look", "FILE", "", save_look},
-        {"light", "X Y", "light up the rays that land there in the disc, pixels from its middle", light},
-        {"bend", "ZONE MM [NM]", "bend the lens's curves: focus of a zone of the pupil, + away from the lens",
-         bend},
-        {"save_curves", "FILE", "the curves that were bent, as a lens file", save_curves},
+        {"save", "FILE", "save the frame at the look's quality, as defocus does", save},
+        {"copy", "", "copy the command that makes this frame", copy},
+        {"load_look", "FILE", "load a look", load_look},
+        {"preset", "NAME", "load a built-in look or one of your own", preset},
+        {"sheet", "LENS,LENS|presets|off",
+         "show this picture through each lens or preset; click one to use it", sheet},
+        {"save_look", "FILE", "save the look", save_look},
+        {"light", "X Y", "highlight the rays that land at this place of the disc, in pixels from its middle",
+         light},
+        {"bend", "ZONE MM [NM]", "move the focus of a zone of the pupil; positive: away from the lens", bend},
+        {"save_curves", "FILE", "save the bent curves as a lens file", save_curves},
         {"tev", "[PORT]", "send the result to the viewer tev on this machine (default port 14158)", push},
-        {"save_lens", "FILE", "the lens alone, as a look", save_lens},
-        {"frame", "N|+1|-1|first|last", "another frame of the shot", frame},
+        {"save_lens", "FILE", "save the lens as a look", save_lens},
+        {"frame", "N|+1|-1|first|last", "go to a frame of the shot", frame},
         {"range", "FIRST LAST", "play these frames", range},
-        {"key_focus", "", "this focus at this frame", key_focus},
-        {"move_key", "FRAME TO METRES", "a key to another frame and distance", move_key},
-        {"rack", "", "focus by two clicks: at the first frame that is played, and at the last", rack},
-        {"remove_key", "", "of this frame", remove_key},
-        {"save_track", "FILE", "the focus over the frames, as defocus --track takes it", save_track},
-        {"load_track", "FILE", "what defocus --track takes", load_track},
-        {"orbit", "YAW PITCH", "turn the camera of a scene by degrees about the focused point", orbit},
-        {"dolly", "FACTOR", "its distance times this", dolly},
-        {"home", "", "the scene's own camera", home},
-        {"record", "FILE-####.exr", "sharp frames of a scene, with depth, for defocus; .png: as shown",
-         record},
-        {"save_path", "FILE", "where the camera of a scene went, by frames", save_path},
-        {"load_path", "FILE", "the same again", load_path},
-        {"forget_path", "", "", forget_path},
-        {"undo", "", "take back the last choice", undo},
-        {"redo", "", "do it again", redo},
-        {"reset", "FIELD|look", "to its default", reset},
-        {"open", "FILE", "another picture, or a shot by its pattern", open},
+        {"key_focus", "", "set a focus key at this frame", key_focus},
+        {"move_key", "FRAME TO METRES", "move a focus key to another frame and distance", move_key},
+        {"rack", "", "begin a rack: click the subject at the first frame, then at the last", rack},
+        {"remove_key", "", "remove the focus key of this frame", remove_key},
+        {"save_track", "FILE", "save the focus keys as a track for defocus --track", save_track},
+        {"load_track", "FILE", "load a track", load_track},
+        {"orbit", "YAW PITCH", "turn the camera of a scene around the focused point, in degrees", orbit},
+        {"dolly", "FACTOR", "multiply the camera's distance", dolly},
+        {"home", "", "go back to the camera of the scene", home},
+        {"record", "FILE-####.exr",
+         "write sharp frames of a scene with depth for defocus; .png: the frames as shown", record},
+        {"save_path", "FILE", "save the path of the camera, frame by frame", save_path},
+        {"load_path", "FILE", "load a path of the camera", load_path},
+        {"forget_path", "", "delete the path of the camera", forget_path},
+        {"undo", "", "undo the last change", undo},
+        {"redo", "", "redo what was undone", redo},
+        {"reset", "FIELD|look", "set a field to its default", reset},
+        {"open", "FILE", "open another picture, or a shot by its pattern", open},
         {"reload", "", "reload the files", reload},
-        {"quit", "", "", quit},
+        {"quit", "", "close the window", quit},
     };
     return all;
 }

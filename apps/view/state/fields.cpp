@@ -94,28 +94,28 @@ Field aperture() {
 
 // The camera of a glTF scene: its name, or number from 1.
 Field own_camera() {
-    return {
-        "scene.camera",
-        [](const App& app) {
-            const std::string& chosen = app.state.choice.scene_camera;
-            const bool has_names = app.shot() && !app.shot()->cameras.empty();
-            return chosen.empty() && has_names ? app.shot()->cameras.front() : chosen;
-        },
-        [](App& app, const std::string& text) -> Status {
-            if (!app.shot() || app.shot()->cameras.empty())
-                return invalid("scene.camera is of glTF files that have cameras");
-            const auto& names = app.shot()->cameras;
-            const auto number = number_of(text);
-            if (std::find(names.begin(), names.end(), text) == names.end() &&
-                !(number && *number >= 1 && *number <= double(names.size()))) {
-                std::string known;
-                for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
-                return invalid("scene.camera " + text + ": the file has none of that name; it has " + known);
-            }
-            app.state.choice.scene_camera = text;
-            app.turn_to({});
-            return Done{};
-        }};
+    return {"scene.camera",
+            [](const App& app) {
+                const std::string& chosen = app.state.choice.scene_camera;
+                const bool has_names = app.shot() && !app.shot()->cameras.empty();
+                return chosen.empty() && has_names ? app.shot()->cameras.front() : chosen;
+            },
+            [](App& app, const std::string& text) -> Status {
+                if (!app.shot() || app.shot()->cameras.empty())
+                    return invalid("scene.camera is for glTF files with cameras");
+                const auto& names = app.shot()->cameras;
+                const auto number = number_of(text);
+                if (std::find(names.begin(), names.end(), text) == names.end() &&
+                    !(number && *number >= 1 && *number <= double(names.size()))) {
+                    std::string known;
+                    for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
+                    return invalid("scene.camera " + text + ": the file has no camera of that name; it has " +
+                                   known);
+                }
+                app.state.choice.scene_camera = text;
+                app.turn_to({});
+                return Done{};
+            }};
 }
 
 // The focus stays on the scene's subject, from now on.
@@ -369,7 +369,7 @@ Result<std::string> text_in(const App& app, const Json& look, const std::string&
         const Json& section = look[path.substr(0, dot)];
         if (section.contains(path.substr(dot + 1))) value = &section[path.substr(dot + 1)];
     }
-    if (!value) return invalid("nothing is called " + path);
+    if (!value) return invalid("there is no field " + path);
     if (const FieldRow* row = row_of(app, path)) return row->from_json(value->dump());
     return value->is_string() ? value->get<std::string>() : value->dump();
 }

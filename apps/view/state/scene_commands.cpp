@@ -12,7 +12,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-Status no_scene() { return invalid("this is a picture; --scene NAME is seen from anywhere"); }
+Status no_scene() { return invalid("a picture has a fixed camera; start the window with --scene NAME"); }
 
 }  // namespace
 
@@ -41,7 +41,8 @@ Status home(App& app, const Words&) {
 }
 Status save_path(App& app, const Words& words) {
     if (!app.is_live()) return no_scene();
-    if (app.state.path.keys.empty()) return invalid("no camera path yet; set scene.recording on, and turn");
+    if (app.state.path.keys.empty())
+        return invalid("no camera path yet; set scene.recording on and turn the scene");
     if (Status fine = app.may_write(words[0]); !fine) return fine;
     if (Status done = write_text(words[0], app.state.path.text()); !done) return done;
     app.notice = "wrote " + words[0];

@@ -116,13 +116,13 @@ std::optional<std::pair<double, double>> Script::place_of(App& app, const Words&
     }
     const auto found = app.widgets.find(words[first]);
     if (found == app.widgets.end()) {
-        fail("nothing on the screen is called " + words[first]);
+        fail("no widget on the screen is named " + words[first]);
         return std::nullopt;
     }
     const Rect& r = found->second;
     const double x_middle = 0.5 * (r.x0 + r.x1), y_middle = 0.5 * (r.y0 + r.y1);
     if (y_middle < 0 || y_middle >= app.screen_height) {
-        fail(words[first] + " is not in sight: the window is too low, or a panel is scrolled");
+        fail(words[first] + " is not visible: the window is too small, or a panel is scrolled");
         return std::nullopt;
     }
     return std::pair(x_middle, y_middle);

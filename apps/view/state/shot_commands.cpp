@@ -13,7 +13,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-Status no_shot() { return invalid("this is one picture; give names with #### for the frames of a shot"); }
+Status no_shot() { return invalid("this is one picture; open a shot by a name with ####"); }
 
 }  // namespace
 
@@ -91,7 +91,7 @@ Status save_track(App& app, const Words& words) {
     if (app.state.timeline.keys.empty()) return invalid("there are no keys yet");
     if (Status fine = app.may_write(words[0]); !fine) return fine;
     if (Status done = write_text(words[0], app.state.timeline.as_track()); !done) return done;
-    app.notice = "wrote " + words[0] + "; defocus --track takes it";
+    app.notice = "wrote " + words[0] + "; use it with defocus --track";
     return Done{};
 }
 Status load_track(App& app, const Words& words) {
