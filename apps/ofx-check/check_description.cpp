@@ -74,7 +74,7 @@ void check_description(const Setup& setup) {
     held("action.unknown");
     const int status = stage.plugin()->main_entry("OfxActionOfTomorrow", nullptr, nullptr, nullptr);
     if (status != ofx::kReplyDefault)
-        broken("action.unknown", "an action of tomorrow gave " + std::to_string(status));
+        broken("action.unknown", "an unknown action returned " + std::to_string(status));
 }
 
 }  // namespace ofx_check

@@ -24,7 +24,7 @@ Scene::Scene(const Setup& setup, std::initializer_list<const char*> rules, const
             why = "a plain frame gives status " + std::to_string(plain.status) +
                   (counts.last_message.empty() ? "" : " (" + counts.last_message + ")") + "; see --param";
     } else {
-        why = stage.problem().empty() ? "no context of the plug-in is known here" : stage.problem();
+        why = stage.problem().empty() ? "the plug-in has no context that this host knows" : stage.problem();
     }
     for (const char* rule : rules)
         if (!is_ready) not_tried(rule, why);

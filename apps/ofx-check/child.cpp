@@ -67,7 +67,7 @@ void run_check(const Check& check, const Setup& setup, double timeout_s, Outcome
         add("process.returns", "the check took more than " + std::to_string(int(timeout_s)) + " s");
         add(rule, "it did not return");
     } else if (code == kMemoryTouched) {
-        add(rule, "memory was used that is not the plug-in's");
+        add(rule, "the plug-in used memory that is not its own");
     } else if (WIFSIGNALED(status) || code != 0) {
         const std::string why = WIFSIGNALED(status) ? strsignal(WTERMSIG(status)) : "exit";
         add("process.survives", why);

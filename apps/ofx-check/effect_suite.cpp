@@ -172,7 +172,8 @@ int release_image(ofx::PropertySet* image) {
     held("images.released");
     if (found == open_images().end()) {
         broken("images.released",
-               image ? "an image is released that is not open: twice?" : "null is released");
+               image ? "an image is released that is not open; it may have been released before"
+                     : "null is released");
         return ofx::kBadHandle;
     }
     --counts.images_open;

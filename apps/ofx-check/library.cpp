@@ -35,7 +35,7 @@ Bundle find_bundle(const std::string& path) {
         const fs::path bundle = fs::absolute(folder).parent_path().parent_path().parent_path();
         return {path, bundle.filename() == folder.filename().string() + ".bundle"
                           ? find_bundle(bundle.string()).problem
-                          : "the library does not lie in a bundle of its name"};
+                          : "the library is not in a bundle of its name"};
     }
     if (!folder.has_filename()) folder = folder.parent_path();
     const std::string name = folder.filename().string();

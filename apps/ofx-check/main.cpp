@@ -154,7 +154,7 @@ int print(const Outcomes& outcomes) {
             std::printf("ok      %-22s %s\n", rule.name, rule.says);
         } else {
             std::printf("-       %-22s not tried: %s\n", rule.name,
-                        outcome.why.empty() ? "no check came to it" : outcome.why.c_str());
+                        outcome.why.empty() ? "no check reached this rule" : outcome.why.c_str());
         }
     }
     return broken;

@@ -34,7 +34,7 @@ Result<LookHandle> named_look(const std::string& text) {
 }
 
 Result<LookHandle> preset_look(const Values& values) {
-    if (!values.look.empty()) return refused("Preset and Look are both given; empty one of them");
+    if (!values.look.empty()) return refused("Preset and Look are both given; clear one of them");
     petzval_look* look = nullptr;
     if (petzval_look_from_preset(values.preset.c_str(), &look) != PETZVAL_OK)
         return refused(std::string("Preset: ") + petzval_error_text());

@@ -21,16 +21,20 @@ constexpr std::array kNumbers{
            "camera", &Values::focal_length_mm, 50, 0.01, 1e5, 10, 200},
     Number{"sensorWidth", "Sensor width", "Width of the sensor that the frame spans, in mm.", "camera",
            &Values::sensor_width_mm, 36, 0.01, 1e5, 5, 70},
-    Number{"fStop", "f-stop", "Ratio of focal length and aperture: a small number blurs more.", "camera",
+    Number{"fStop", "f-stop",
+           "Focal length divided by the diameter of the aperture; a smaller number blurs more.", "camera",
            &Values::f_number, 2.8, 0.01, kHuge, 0.7, 22},
-    Number{"focusDistance", "Focus distance", "Distance of what is sharp, along the optical axis, in metres.",
-           "camera", &Values::focus_distance_m, 3, 1e-4, kHuge, 0.1, 50},
+    Number{"focusDistance", "Focus distance",
+           "Distance of the plane of focus along the optical axis, in metres.", "camera",
+           &Values::focus_distance_m, 3, 1e-4, kHuge, 0.1, 50},
     Number{"depthUnit", "Metres per unit", "Length of one unit of the depth channel, in metres.", "depth",
            &Values::depth_unit_m, 1, 1e-9, kHuge, 0.001, 1},
-    Number{"depthNear", "Depth range: near", "Depth kinds with a range: its near end in units; 0: none.",
-           "depth", &Values::depth_near, 0, 0, kHuge, 0, 10},
-    Number{"depthFar", "Depth range: far", "Depth kinds with a range: its far end in units; 0: none.",
-           "depth", &Values::depth_far, 0, 0, kHuge, 0, 100},
+    Number{"depthNear", "Depth range: near",
+           "Near end of the range, for depth kinds with a range, in units of the scene; 0: none.", "depth",
+           &Values::depth_near, 0, 0, kHuge, 0, 10},
+    Number{"depthFar", "Depth range: far",
+           "Far end of the range, for depth kinds with a range, in units of the scene; 0: none.", "depth",
+           &Values::depth_far, 0, 0, kHuge, 0, 100},
     Number{"depthFrameOffset", "Depth frame offset",
            "Added to the host's frame number where Depth file has '#': 1001 if frame 0 is depth.1001.exr.",
            "depth", &Values::depth_frame_offset, 0, -kHuge, kHuge, 0, 1001},
@@ -44,13 +48,14 @@ struct Text {
 constexpr std::array kTexts{
     Text{"depthFile", "Depth file", "EXR with depth; '#' stands for digits of the frame: depth.####.exr.",
          "depth", &Values::depth_file, true},
-    Text{"depthChannel", "Depth channel", "Channel of the depth file, such as Z; empty: found by its name.",
-         "depth", &Values::depth_channel, false},
-    Text{name::kLens, "Lens", "Name of a lens, or the path of a lens file; empty: the look's.", "optics",
-         &Values::lens, false},
+    Text{"depthChannel", "Depth channel",
+         "Channel of the depth file, such as Z; if empty, it is found by its name.", "depth",
+         &Values::depth_channel, false},
+    Text{name::kLens, "Lens", "Name of a lens, or the path of a lens file; if empty, the lens of the look.",
+         "optics", &Values::lens, false},
     Text{"look", "Look", "A look: its JSON, the path of a look file, or a link of the lens lab.", "optics",
          &Values::look, false},
-    Text{name::kPreset, "Preset", "Name of a look that ships or is in your folder of presets; empty: none.",
+    Text{name::kPreset, "Preset", "Name of a built-in look or of one in your folder of presets; empty: none.",
          "optics", &Values::preset, false},
 };
 
@@ -118,12 +123,12 @@ std::vector<std::string> transfers() {
 std::vector<Menu> menus() {
     return {{name::kFocusFrom,
              "Focus on",
-             "The distance above, or what the picked point shows.",
+             "distance: the distance above; point: the depth at the picked point.",
              "camera",
              {"distance", "point"}},
             {"sensorSpans",
              "Sensor spans",
-             "The width that the sensor's width stands for.",
+             "The area that the sensor width covers: the frame of the project, or the region of Source.",
              "camera",
              {"project", "Source"}},
             {name::kTransfer, "Source is",
@@ -138,7 +143,7 @@ std::vector<Menu> menus() {
             menu_of(kWriters[0]),
             menu_of(kWriters[1]),
             {"engine", "Engine", "Method that computes the blur.", "optics", engines()},
-            {"quality", "Quality", "Accuracy; the blur keeps its size.", "optics",
+            {"quality", "Quality", "Accuracy of the blur, not its size.", "optics",
              words_of<Quality>({kOfTheLook})}};
 }
 
@@ -219,7 +224,7 @@ void define_params(ofx::Effect* descriptor) {
     define_menus(params);
     define_point(params);
     defined(params, ofx::param::kBoolean, "draft", "Draft while interactive",
-            "Quality draft while the host shows changes as they are made.", "optics")
+            "Use quality draft during interactive changes.", "optics")
         .set(ofx::param::kDefault, 1);
 }
 

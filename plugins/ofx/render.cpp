@@ -165,10 +165,10 @@ Result<double> depth_at_point(const DepthQuestion& q, const DepthOfFrame& depth)
     const ofx::RectI& bounds = q.source->bounds();
     if (depth.are_radii) return refused("Focus on 'point' needs depth, not radii");
     if (x < bounds.x1 || x >= bounds.x2 || y < bounds.y1 || y >= bounds.y2)
-        return refused("the focus point lies outside of Source");
+        return refused("the focus point is outside Source");
     const std::size_t row = std::size_t(bounds.y2 - 1 - y);
     const double metres = depth.values[row * std::size_t(q.source->width()) + std::size_t(x - bounds.x1)];
-    if (!std::isfinite(metres)) return refused("the focus point shows nothing that has a depth");
+    if (!std::isfinite(metres)) return refused("the picture has no depth at the focus point");
     return metres;
 }
 
@@ -289,7 +289,7 @@ int render(ofx::Effect* effect, const Properties& in) {
         return failed("Output is not of RGBA float pixels", ofx::kImageFormat);
     if (is_empty(job.window)) return ofx::kOk;
     if (!holds(output.bounds(), job.window))
-        return failed("Output does not hold the render window", ofx::kFailed);
+        return failed("Output does not contain the render window", ofx::kFailed);
     if (source.is_there() && (!source.is_readable() || source.channels() != 4))
         return failed("Source is not of RGBA float pixels", ofx::kImageFormat);
     job.source = &source;

@@ -23,16 +23,16 @@ def _found(_self, _context, text):
 
 class Settings(bpy.types.PropertyGroup):
     lens: bpy.props.StringProperty(
-        name="Lens", description="Name of a lens, or a lens file; empty: an ideal lens, or the look's", search=_found,
+        name="Lens", description="Name of a lens, or a lens file; if empty, the look's lens or an ideal lens", search=_found,
         search_options={"SUGGESTION"})
     preset: bpy.props.StringProperty(
-        name="Preset", description="A look by name: one that ships, or NAME.json in your folder of presets",
+        name="Preset", description="Name of a built-in look, or NAME.json in your folder of presets",
         search=_found_presets, search_options={"SUGGESTION"})
     look_file: bpy.props.StringProperty(
         name="Look", description="File of artistic choices, as petzval defocus --save-look writes it",
         subtype="FILE_PATH")
     quality: bpy.props.EnumProperty(
-        name="Quality", description="Accuracy; the blur keeps its size", default="standard",
+        name="Quality", description="Accuracy of the blur, not its size", default="standard",
         items=[("draft", "Draft", "Fastest"), ("standard", "Standard", "Final frames"), ("final", "Final", "Slow")])
     cats_eye: bpy.props.FloatProperty(
         name="Cat's Eye", description="Optical vignetting: cuts discs towards the corners", min=0, max=1)
