@@ -1,4 +1,4 @@
-"""Makes pictures of docs/guide: deep, render passes, troubleshooting, OpenFX, GEGL, kit, packages.
+"""Makes pictures of docs/guide: deep, render passes, troubleshooting, soft depth, presets, OpenFX, GEGL, kit, packages.
 
 Usage: guide_pictures.py PROGRAM [NAME…]. Writes docs/pictures/guide-NAME.png, or .svg. OpenFX needs `ninja petzval_ofx
 ofx_check`, GEGL its operation, `gegl` and `oiiotool`, the kit a driver of Vulkan.
@@ -82,6 +82,18 @@ def troubleshooting(studio):
                                             for flags in ([], ["--expand-highlights"]))])
 
 
+def soft_depth(studio):
+    soft = studio.scene("tori", "--depth-blur", 2, "--depth-bits", 8, width=480)
+    write("soft-depth", [studio.blurred(soft, "--depth-edges", edges) for edges in ("keep", "auto")])
+
+
+def presets(studio):
+    night = studio.scene("night")
+    looks = [studio.blurred(night, "--preset", name)
+             for name in ("portrait", "bubble", "swirl", "soft-focus", "anamorphic", "night")]
+    write("presets", looks[:3], looks[3:])
+
+
 def openfx(studio):
     tools, night, made = studio.program.parents[2], studio.scene("night"), studio.path("exr")
     numbers = {"focalLength": 105, "sensorWidth": 36, "fStop": 1.4, "focusDistance": 4.8, "lens": "doublet"}
@@ -139,7 +151,7 @@ def packages(studio):
 
 def main(program, *names):
     with tempfile.TemporaryDirectory() as folder:
-        for make in (deep, render_passes, troubleshooting, openfx, gegl, kit, packages):
+        for make in (deep, render_passes, troubleshooting, soft_depth, presets, openfx, gegl, kit, packages):
             if not names or make.__name__.replace("_", "-") in names:
                 make(Studio(pathlib.Path(program).resolve(), pathlib.Path(tempfile.mkdtemp(dir=folder))))
 
