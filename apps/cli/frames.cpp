@@ -117,7 +117,7 @@ Status ended(const Status& done, const std::vector<int>& frames, const std::vect
 Status make_frames(const FrameFlags& frames, const RunFlags& run, FrameWork work) {
     if (frames.missing == MissingFiles::Black && !work.black)
         return Error{ErrorCode::InvalidArgument,
-                     "--missing black is for pictures that are made: fail or skip"};
+                     "--missing black is for verbs that write pictures; give fail or skip"};
     FrameLoopSettings settings;
     settings.frames = frames.frames;
     settings.missing = frames.missing;

@@ -234,23 +234,22 @@ void add_view(Verb& program, Action& chosen) {
     auto flags = std::make_shared<ViewFlags>();
     flags->add_shown_to(verb);
     FlagGroup(verb, "Window")
-        .reads("--against", "FILE",
-               "another picture to compare with, such as the truth or a frame made before", flags->against)
-        .value(
-            "--scene", "NAME",
-            "instead of IN: a built-in scene, or a .gltf or .glb file, rendered at every move of its camera",
-            parse_text, flags->scene)
+        .reads("--against", "FILE", "another picture to compare with, such as the truth or an earlier frame",
+               flags->against)
+        .value("--scene", "NAME",
+               "instead of IN: a built-in scene, or a .gltf or .glb file, rendered again whenever its camera "
+               "moves",
+               parse_text, flags->scene)
         .value("--scene-camera", "NAME",
                "camera of a glTF file, by name or by number from 1 (default: the first)", parse_text,
                flags->scene_camera)
         .value("--scene-size", "WxH", "size of its picture (default 480x270)", parse_window,
                flags->scene_size)
-        .value(
-            "--listen", "PORT",
-            "show pictures that renderers push to the viewer tev, on this port of this machine (tev's own is "
-            "14158). One with a channel Z in metres replaces the picture, others are compared with it; "
-            "without IN the window waits for a picture",
-            parse_port, flags->listen)
+        .value("--listen", "PORT",
+               "show pictures that renderers push to the viewer tev, on this port of this machine (tev's own "
+               "is 14158). A pushed picture with a channel Z in metres replaces the picture; others are "
+               "compared with it. Without IN the window waits for a picture",
+               parse_port, flags->listen)
         .reads("--script", "FILE", "run the script in a file (docs/reference/window.md), then close",
                flags->script)
         .value("--window", "WxH", "size of the window (default 1280x800)", parse_window, flags->size)

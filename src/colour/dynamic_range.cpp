@@ -99,19 +99,18 @@ void add_advice(DynamicRange& range, bool low, bool display_referred) {
     if (range.looks_encoded)
         range.advice.push_back(
             "nothing is brighter than 1 and the middle lies at " + rounded(range.middle) +
-            ": this looks like display codes, not light. Taken for light, its range is too "
-            "small (0.2 on a display is 0.029 of white), and blurred highlights look dull: "
-            "convert it to scene-linear light first");
+            ": this looks like display codes, not light. As light, its range is too small (0.2 on a display "
+            "is 0.029 of white), and blurred highlights look dull: convert it to scene-linear light first");
     if (low && range.clipped_share > 1e-4)
         range.advice.push_back(
             rounded(100 * range.clipped_share) +
-            " % of the pixels are clipped at 1: lights hold no more than diffuse white, so "
-            "their blur will be dull; plate.expand_highlights estimates their brightness");
+            " % of the pixels are clipped at 1: lights are no brighter than diffuse white, so their blur "
+            "will be dull; plate.expand_highlights estimates their brightness");
     const double stops = range.diffuse_over_shadow_stops;
     if (!display_referred && stops > 0.5 && stops < 2 && range.specular_over_diffuse_stops < 1.5)
         range.advice.emplace_back(
-            "all light lies within a few stops; if the picture looks flat, see whether the "
-            "scene's lights stand in the ratios of real ones before reaching for develop.contrast");
+            "all light lies within a few stops; if the picture looks flat, compare the ratios of the scene's "
+            "lights with real ones before you change develop.contrast");
 }
 
 }  // namespace

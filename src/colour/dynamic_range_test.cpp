@@ -54,7 +54,7 @@ TEST(DynamicRange, IsAdvisedBeforeContrast) {
     }
     const auto speaks_of_contrast = [](const Picture& picture) {
         for (const std::string& line : measure_dynamic_range(picture.view(), false).advice)
-            if (line.find("before reaching for develop.contrast") != std::string::npos) return true;
+            if (line.find("before you change develop.contrast") != std::string::npos) return true;
         return false;
     };
     EXPECT_TRUE(speaks_of_contrast(flat));

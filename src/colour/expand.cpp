@@ -57,8 +57,8 @@ Result<Picture> expand_highlights(View<const Rgba> plate, const HighlightExpansi
             const float brightest = std::max({c.r, c.g, c.b});
             if (double(brightest) > kTolerance && std::isfinite(brightest)) {
                 std::ostringstream text;
-                text << "plate.expand_highlights is for plates that end at 1; this picture holds light of "
-                     << brightest << " and needs none";
+                text << "plate.expand_highlights is for plates that end at 1; this picture has light of "
+                     << brightest << ", so it needs no expansion";
                 return Error{ErrorCode::InvalidArgument, text.str()};
             }
             out(x, y) = scaled(c, [&](double v) { return shoulder.expanded(v); });

@@ -28,14 +28,15 @@ Status check(const FarmShot& shot) {
     };
     if (shot.frames.empty()) return refused("no frames");
     if (std::any_of(shot.command.begin(), shot.command.end(), is_bad) || is_bad(shot.working_folder))
-        return refused("a job for a farm cannot hold a line break in an argument or in the folder's name");
+        return refused("a job for a farm cannot have a line break in an argument or in the folder's name");
     // run.sh and its folder stand in templates, shell lines and XML.
     const auto is_plain = [](unsigned char c) {
         return c >= 0x80 || std::isalnum(c) ||
                std::string_view("/._-+,=@ ").find(char(c)) != std::string::npos;
     };
     if (!std::all_of(shot.folder.begin(), shot.folder.end(), is_plain))
-        return refused(shot.folder + ": the folder of a job holds letters, digits, blanks and /._-+,=@ only");
+        return refused(shot.folder +
+                       ": the folder of a job may contain only letters, digits, blanks and /._-+,=@");
     return Done{};
 }
 

@@ -64,7 +64,7 @@ Status check(const GlareSettings& s) {
     if (const Status fine = kernel::check_aperture(s.lens); !fine) return fine;
     if (s.star > 0 && s.lens.aperture.blades < 3)
         return Error{ErrorCode::InvalidArgument,
-                     "a round aperture throws no star (glare.star): give lens.blades, such as lens.blades 6"};
+                     "a round aperture makes no star (glare.star): give lens.blades, such as lens.blades 6"};
     return Done{};
 }
 

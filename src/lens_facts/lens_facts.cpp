@@ -104,7 +104,7 @@ void add_seidel(LensFacts& facts, const optics::Prescription& lens, const optics
         facts.warnings.emplace_back("odd aspheric powers below 4 are left out of the third-order sums");
     if (facts.field_deg >= 89 && lens.paraxial_field_deg == 0)
         facts.warnings.emplace_back(
-            "third-order sums of so wide a field mean nothing; they are for 20 degrees");
+            "third-order sums are for 20 degrees, because they have no meaning for so wide a field");
 }
 
 Status add_field(LensFacts& facts, const optics::Prescription& lens, const optics::FirstOrder& first) {

@@ -67,7 +67,7 @@ Rules rules_of_engines() {
           "focus.max_radius_px"},
          [](const Look& l) {
              return unless(!is_published_stage(l) || l.gather.stage != GatherStage::Prefilter,
-                           "with gather.stage prefilter, which asks for no radius");
+                           "with gather.stage prefilter, which uses no radius");
          }},
         {{"gaussian.style", "gaussian.focus_band"},
          [](const Look& l) {
@@ -110,7 +110,7 @@ Rules rules_of_gather() {
              return unless(l.gather.stage != GatherStage::Coc && l.gather.stage != GatherStage::Prefilter &&
                                l.gather.stage != GatherStage::Disc && l.gather.stage != GatherStage::DiscBlur,
                            std::string("with gather.stage ") + name_of(l.gather.stage) +
-                               ", which does not ask for the radius of 2 x 2 pixels");
+                               ", which does not use the radius of 2 x 2 pixels");
          }},
         {{"gather.tap_offset"},
          [](const Look& l) {
@@ -305,10 +305,9 @@ Status possible(const Look& look) {
     };
     const GlareAmounts& g = look.glare;
     if (g.star > 0 && look.lens.aperture.blades < 3)
-        return refused(
-            "glare.star",
-            "glare.star needs an aperture with blades, such as lens.blades 6: a round one throws no "
-            "spikes");
+        return refused("glare.star",
+                       "glare.star needs an aperture with blades, such as lens.blades 6, because a round one "
+                       "makes no spikes");
     if (g.bloom + g.star + g.ghosts + g.veil > 1)
         return refused("",
                        "glare.bloom, glare.star, glare.ghosts and glare.veil together take more than all "

@@ -65,7 +65,7 @@ Result<Look> look_of(const Json& told) {
     if (lens.contains("text") && !lens["text"].is_null()) {
         if (!lens["text"].is_string()) return refused("its lens is not text");
         look.lens.name = lens["text"].get<std::string>();
-        if (!optics::is_lens_text(look.lens.name)) return refused("it holds a lens of one line");
+        if (!optics::is_lens_text(look.lens.name)) return refused("its lens has one line only");
     }
     const Json none = Json::object();
     const Json& fields = lens.contains("look") ? lens["look"] : none;

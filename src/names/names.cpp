@@ -6,46 +6,47 @@ namespace petzval {
 namespace {
 
 constexpr Named<Quality> kQualities[]{{Quality::Draft, "draft", "quick"},
-                                      {Quality::Standard, "standard", "for work"},
-                                      {Quality::Final, "final", "as exact as the engine can be"}};
+                                      {Quality::Standard, "standard", "for most work"},
+                                      {Quality::Final, "final", "as exact as the engine allows"}};
 constexpr Named<Fill> kFills[]{{Fill::Full, "full", "extends the surroundings, lamps included"},
                                {Fill::Dim, "dim", "extends the surroundings without highlights"},
                                {Fill::Off, "off", "adds nothing"}};
 constexpr Named<ScatterView> kScatterViews[]{
     {ScatterView::Result, "result", "the picture"},
     {ScatterView::Layers, "layers", "the surfaces seen and found behind them"},
-    {ScatterView::Levels, "levels", "what each level of detail drew"},
-    {ScatterView::Highlights, "highlights", "light spread by itself"},
-    {ScatterView::Hidden, "hidden", "the surfaces seen and found behind them, as deep samples"},
-    {ScatterView::Guessed, "guessed", "a matte of the light that comes from guessed surfaces"}};
+    {ScatterView::Levels, "levels", "light of each level of detail"},
+    {ScatterView::Highlights, "highlights", "light that is spread separately"},
+    {ScatterView::Hidden, "hidden", "all surfaces, visible and estimated, as deep samples"},
+    {ScatterView::Guessed, "guessed", "a matte of the light from estimated surfaces"}};
 constexpr Named<GatherStage> kStages[]{
     {GatherStage::Final, "final", "the engine itself"},
     {GatherStage::Coc, "coc", "the published signed radius"},
     {GatherStage::Prefilter, "prefilter", "colour and radius at half resolution"},
-    {GatherStage::Taps, "taps", "a drawing: which samples of the disc reach its middle"},
-    {GatherStage::Disc, "disc", "a disc of samples, blind to their radii"},
+    {GatherStage::Taps, "taps", "a drawing of the samples that reach the middle of the disc"},
+    {GatherStage::Disc, "disc", "a disc of samples that ignores their radii"},
     {GatherStage::DiscBlur, "disc-blur", "disc after the four-tap blur"},
-    {GatherStage::HardTest, "hard-test", "samples count where their own radius reaches"},
+    {GatherStage::HardTest, "hard-test", "samples count if their own radius reaches the pixel"},
     {GatherStage::Blur, "blur", "hard-test after the four-tap blur"},
     {GatherStage::Combine, "combine", "blur mixed with the sharp picture"},
     {GatherStage::NearFar, "near-far", "near and far apart"},
     {GatherStage::Cure, "cure", "near and far combined"}};
 constexpr Named<GaussianStyle> kStyles[]{
-    {GaussianStyle::Layered, "layered", "near and far apart, nothing in focus bleeds"},
+    {GaussianStyle::Layered, "layered", "near and far separated, so light in focus does not bleed"},
     {GaussianStyle::Plain, "plain", "every pixel by its own radius"},
     {GaussianStyle::Wgld, "wgld", "by depth, as published"}};
 constexpr Named<GaussianView> kGaussianViews[]{
     {GaussianView::Result, "result", "the picture"},
     {GaussianView::Sharp, "sharp", "the input"},
-    {GaussianView::BlurSmall, "blur-small", "all of it blurred by the smaller Gaussian"},
-    {GaussianView::BlurLarge, "blur-large", "all of it blurred by the larger Gaussian"},
-    {GaussianView::BlurRows, "blur-rows", "after the first pass of the larger: rows alone"},
-    {GaussianView::FocusIndex, "focus-index", "1 in focus to 0 wholly blurred"}};
+    {GaussianView::BlurSmall, "blur-small", "the whole picture after the smaller Gaussian"},
+    {GaussianView::BlurLarge, "blur-large", "the whole picture after the larger Gaussian"},
+    {GaussianView::BlurRows, "blur-rows",
+     "after the first pass of the larger Gaussian, which blurs rows only"},
+    {GaussianView::FocusIndex, "focus-index", "1 in focus to 0 fully blurred"}};
 constexpr Named<SpriteBackground> kBackgrounds[]{{SpriteBackground::Gather, "gather", "engine gather"},
                                                  {SpriteBackground::Gaussian, "gaussian", "engine gaussian"}};
 constexpr Named<FocusMode> kFocusModes[]{{FocusMode::Best, "best", "least blur at this aperture"},
-                                         {FocusMode::Paraxial, "paraxial", "where light near the axis meets"},
-                                         {FocusMode::Shift, "shift", "so far behind the paraxial focus"}};
+                                         {FocusMode::Paraxial, "paraxial", "focus of light near the axis"},
+                                         {FocusMode::Shift, "shift", "a distance behind the paraxial focus"}};
 constexpr Named<LightSpectrum> kSpectra[]{
     {LightSpectrum::Daylight, "daylight", "all wavelengths"},
     {LightSpectrum::Sodium, "sodium", "street lamps: one wavelength"},
@@ -61,7 +62,7 @@ constexpr Named<LensCoating> kCoatings[]{
     {LensCoating::None, "none", "bare glass"},
     {LensCoating::SingleLayer, "single", "one layer of magnesium fluoride"}};
 constexpr Named<ToneCurve> kTones[]{
-    {ToneCurve::Filmic, "filmic", "mid-grey kept, highlights roll off and pale"},
+    {ToneCurve::Filmic, "filmic", "keeps mid-grey, rolls off highlights towards white"},
     {ToneCurve::Reinhard, "reinhard", "n/(1 + n)"},
     {ToneCurve::None, "none", "clip"}};
 constexpr Named<Transfer> kTransfers[]{{Transfer::Srgb, "srgb", "the sRGB curve"},
@@ -79,16 +80,16 @@ constexpr Named<DepthKind> kDepthKinds[]{
     {DepthKind::MistLinear, "mist-linear", "mist, falloff Linear"},
     {DepthKind::MistInverse, "mist-inverse", "mist, falloff Inverse Quadratic"}};
 constexpr Named<DepthEdges> kDepthEdges[]{
-    {DepthEdges::Auto, "auto", "snap where most silhouettes are ramps"},
+    {DepthEdges::Auto, "auto", "snap if most silhouettes are ramps"},
     {DepthEdges::Keep, "keep", "never sharpens"},
     {DepthEdges::Snap, "snap", "each pixel of a ramp goes to one side"}};
 constexpr Named<ErrorCode> kErrorCodes[]{
     {ErrorCode::InvalidArgument, "invalid-argument", "a flag, a number or a field is wrong or missing"},
     {ErrorCode::InvalidFile, "invalid-file", "an input is missing, damaged or incomplete"},
-    {ErrorCode::Unsupported, "unsupported", "understood, but not possible here"},
+    {ErrorCode::Unsupported, "unsupported", "not possible in this build or with this engine"},
     {ErrorCode::OutputFailed, "output-failed", "an output could not be written"},
     {ErrorCode::OutOfMemory, "out-of-memory", "the work does not fit the memory limit"},
-    {ErrorCode::Cancelled, "cancelled", "asked to stop"},
+    {ErrorCode::Cancelled, "cancelled", "a caller stopped the work"},
     {ErrorCode::ReadFailed, "read-failed", "the system failed to read an input"}};
 
 }  // namespace

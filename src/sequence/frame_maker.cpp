@@ -266,8 +266,8 @@ Status FrameMaker::look_around() {
 }
 
 void FrameMaker::take_behind(SeenElsewhere seen) {
-    note("seen elsewhere: what lies behind " + std::to_string(seen.pixels) + " pixels, depth of lamps in " +
-         std::to_string(seen.lamps.size()));
+    note("seen in other frames: background behind " + std::to_string(seen.pixels) +
+         " pixels, depth of lamps in " + std::to_string(seen.lamps.size()));
     record_["seen_elsewhere"] = {{"pixels", seen.pixels},
                                  {"lamps", seen.lamps.size()},
                                  {"by_motion", seen.by_motion},

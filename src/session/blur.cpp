@@ -145,9 +145,9 @@ void describe(const Blur& blur, const PreparedFrame& frame, const NotingDevice& 
     const FrameRequest& request = blur.request;
     if (const int missing = missing_beyond_px(request.rendered.place, request.look.lens.distortion);
         missing > 0)
-        report.warnings.push_back("lens.distortion shows the scene up to " + std::to_string(missing) +
-                                  " pixels beyond the picture, where its mirror image stands for it; "
-                                  "render that much overscan");
+        report.warnings.push_back(
+            "lens.distortion shows the scene up to " + std::to_string(missing) +
+            " pixels beyond the picture, where it is mirrored; render that much overscan");
     for (std::string& said : drawing.said()) report.warnings.push_back(std::move(said));
     if (store && !store->warning().empty()) report.warnings.push_back(store->warning());
     report.largest_radius_px = double(whole.samples.farthest_coc_px);
@@ -215,9 +215,8 @@ Result<Blurred> blurred_by_either(const NotingDevice& drawing, const std::string
         const bool never_fails = drawing.name() == std::string_view(device::cpu_device().name());
         auto made = blurred_by(drawing, blur, never_fails ? spare : nullptr);
         if (made && asked.starts_with("gpu") && made->report.device != drawing.name())
-            made->report.warnings.push_back("session.device " + asked +
-                                            " had nothing to draw of job.engine " + engine +
-                                            "'s; the CPU made the frame");
+            made->report.warnings.push_back("session.device " + asked + " draws nothing of job.engine " +
+                                            engine + "'s; the CPU made the frame");
         return made;
     } catch (const device::Failed& failed) {
         if (failed.error.code != ErrorCode::OutOfMemory || engine == "realtime") throw;

@@ -61,7 +61,7 @@ Status collect(const JobFlags& flags) {
     std::string message =
         std::to_string(sum.incomplete) + " of " + std::to_string(frames.size()) + " frames are not complete";
     if (!sum.to_try.empty())
-        message += "; " + shot->folder + "/left holds the commands for those to try again";
+        message += "; " + shot->folder + "/left has the commands for frames to try again";
     throw FramesFailed{message, sum.to_try.empty() ? 4 : 1};
 }
 
@@ -89,7 +89,7 @@ void add_job_verb(Verb& farm, Action& chosen, const char* name, const char* purp
 
 void add_farm_jobs(Verb& farm, Action& chosen) {
     add_job_verb(farm, chosen, "submit", "submit a job to Slurm", "petzval farm submit job", submit);
-    add_job_verb(farm, chosen, "status", "count the frames of a job that are complete, failed or left",
+    add_job_verb(farm, chosen, "status", "count the complete, failed and remaining frames of a job",
                  "petzval farm status job", status);
     add_job_verb(farm, chosen, "collect", "verify all frames of a job and merge its records",
                  "petzval farm collect job\npetzval farm collect job --resubmit", collect);

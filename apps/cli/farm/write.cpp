@@ -96,11 +96,11 @@ static void add_farm_write(Verb& farm, Action& chosen) {
             "the farm: list, one command per line for make, xargs or cuecmd; slurm; flamenco; openjd, Open "
             "Job Description; opencue",
             farm_systems(), flags->system)
-        .value("-o,--output", "FOLDER", "folder of the job, on a disk that all machines see", parse_text,
-               flags->folder)
+        .value("-o,--output", "FOLDER", "folder of the job, on a disk that all machines can access",
+               parse_text, flags->folder)
         .value("--chunk", "N",
-               "frames that one process renders (default: as many as take a minute; the middle frame is "
-               "rendered to measure that, and the memory)",
+               "frames per process (default: about a minute of work; the middle frame is rendered to measure "
+               "time and memory)",
                parse_count, flags->chunk);
     when_typed(verb, chosen, flags, check, write);
 }

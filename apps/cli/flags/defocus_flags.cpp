@@ -48,9 +48,9 @@ void DefocusFlags::add_output_to(Verb& verb) {
             output)
         .choice("--view",
                 "buffer to write: beauty, the picture (default); coc, signed blur radius; focus, map of "
-                "sharp, near and far; depth; alpha; hidden, all surfaces as deep EXR; of scatter: layers, "
-                "levels, highlights, guessed, a matte of the hidden surfaces' light; of gaussian: sharp, "
-                "blur-small, blur-large, blur-rows, focus-index",
+                "sharp, near and far; depth; alpha; hidden, all surfaces as deep EXR; guessed, matte of "
+                "light from estimated surfaces; buffers of scatter: layers, levels, highlights; buffers of "
+                "gaussian: sharp, blur-small, blur-large, blur-rows, focus-index",
                 shot_views(), view)
         .value("--overscan", "PX",
                "room for light that leaves a data window inside the frame: fit, within the frame (default); "

@@ -134,7 +134,7 @@ void add_table(Verb& lens, Action& chosen) {
                           "petzval lens table uncorrected --wavelengths 3 --defocus 40 -o table.png");
     auto flags = std::make_shared<TableFlags>();
     flags->add_lens_to(verb, {[](const LookRow& row) { return is_off_axis(row) || shapes_the_pupil(row); },
-                              "has no effect in lens table, where a column is a round disc in the middle of "
+                              "has no effect in lens table, whose columns are round discs in the middle of "
                               "the picture; lens psf draws one disc with it"});
     FlagGroup(verb, "Table")
         .value("--defocus", "PX", "signed radii from minus this to plus this (default 64)", parse_positive,
@@ -147,7 +147,8 @@ void add_table(Verb& lens, Action& chosen) {
     when_typed(verb, [flags, &verb, &chosen] {
         flags->check(verb);
         if (flags->height_px)
-            throw UsageError("--height has no effect in lens table, which is of the picture's middle");
+            throw UsageError(
+                "--height has no effect in lens table, which describes the middle of the picture");
         flags->table.raw = flags->raw;
         flags->table.dense_near_focus = !flags->even;
         chosen = [flags] { return make(*flags, flags->table); };

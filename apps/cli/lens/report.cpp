@@ -113,11 +113,11 @@ void add_lens_report(Verb& lens, Action& chosen) {
                  "petzval lens report --all -o lenses");
     auto flags = std::make_shared<LensReportFlags>();
     FlagGroup(verb, "Lens")
-        .arguments("LENS",
-                   "names of petzval lens list, or lens files; of several, also a contact sheet and a "
-                   "comparison",
-                   flags->lenses)
-        .on("--all", "a page for every lens that ships, a contact sheet and a comparison", flags->all);
+        .arguments(
+            "LENS",
+            "names of petzval lens list, or lens files; several also get a contact sheet and a comparison",
+            flags->lenses)
+        .on("--all", "a page for every built-in lens, a contact sheet and a comparison", flags->all);
     FlagGroup(verb, "Output")
         .value("-o,--output", "PATH",
                "a page, such as sheet.html, or a folder, created if missing (default: the current folder)",

@@ -41,7 +41,7 @@ double focus_of(const CurveSampler& sampler, const LensChoice& choice, double fo
 std::string describe(const AberrationCurves& curves, const Camera& camera) {
     std::string text = curves.name + ": " + curves.description;
     if (camera.f_number < curves.f_number)
-        text += " (curves stretched to this aperture, wider than drawn for)";
+        text += " (curves extended to this aperture, which is wider than theirs)";
     return text;
 }
 

@@ -377,8 +377,8 @@ TEST(CurveLens, NothingLandsBeyondItsReach) {
 }
 
 TEST(CurveLens, WiderThanDrawnForStretchesTheCurvesAndSaysSo) {
-    EXPECT_EQ(lens_named("doublet", 2)->description().find("stretched"), std::string::npos);
-    EXPECT_NE(lens_named("doublet", 1.4)->description().find("stretched"), std::string::npos);
+    EXPECT_EQ(lens_named("doublet", 2)->description().find("extended"), std::string::npos);
+    EXPECT_NE(lens_named("doublet", 1.4)->description().find("extended"), std::string::npos);
 }
 
 TEST(Curves, DamagedCurvesAreRefused) {

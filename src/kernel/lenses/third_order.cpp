@@ -84,8 +84,8 @@ Status check_third_order(const LensChoice& choice, const Mount& mount) {
         if (!(std::abs(size) <= kFarthest))
             return Error{ErrorCode::InvalidArgument,
                          std::string(field) +
-                             " throws rays of the pupil's rim by more than a tenth of the focal length; give "
-                             "less, or a smaller aperture",
+                             " moves rays at the rim of the pupil by more than a tenth of the focal length; "
+                             "give less, or a smaller aperture",
                          field};
     return Done{};
 }

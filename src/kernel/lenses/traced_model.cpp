@@ -209,8 +209,8 @@ void TracedModel::trace_fields(const optics::TracedLens& lens) {
     nodes_ = std::move(nodes);
     if (largest_field_ < 0.99) {
         std::ostringstream text;
-        text << "; made for " << std::atan(largest_field_ * corner) * 180 / kPi
-             << " degrees off the axis, beyond it as there";
+        text << "; designed for " << std::atan(largest_field_ * corner) * 180 / kPi
+             << " degrees off the axis; farther out, discs are as at that angle";
         description_ += text.str();
     }
 }
