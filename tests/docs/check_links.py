@@ -46,10 +46,13 @@ class Sources:
         self._rooms = {file.parts[1] for file in files if file.parts[0] == "src" and len(file.parts) > 2}
 
     def lacks(self, path):
-        """True if the path begins with a folder of the repository or a room of src/, and does not exist."""
+        """True if the path begins with a folder of the repository or a room of src/, and does not exist. Other folders of
+        src/ belong to other projects."""
         path = path.rstrip("/")
-        first = path.split("/")[0]
-        if not SOURCE.fullmatch(path) or PLACEHOLDER.search(path) or first not in self._first | self._rooms:
+        first, *rest = path.split("/")
+        is_theirs = first == "src" and rest and rest[0] not in self._rooms
+        if (not SOURCE.fullmatch(path) or PLACEHOLDER.search(path) or is_theirs
+                or first not in self._first | self._rooms):
             return False
         names = [path] * (first in self._first) + [f"src/{path}"] * (first in self._rooms)
         return not any(name in self._all or fnmatch.filter(self._all, name) for name in names)

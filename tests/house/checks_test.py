@@ -49,7 +49,7 @@ class Checks(unittest.TestCase):
     def test_a_page_that_names_a_source_which_does_not_exist_is_found(self):
         links = "../tests/docs/check_links.py"
         files = {"docs/a.md": "\n", "src/engine/waist/plan.cpp": "", "lenses/a.json": "{}"}
-        sound = "`src/engine/waist/plan.cpp` `engine/waist/plan` `engine/*/plan.cpp` `lenses/*.json` `src/engine/x/` `job/left`\n"
+        sound = "`src/engine/waist/plan.cpp` `engine/waist/plan` `engine/*/plan.cpp` `lenses/*.json` `src/engine/x/` `job/left` `src/theirs/a.c`\n"
         self.assert_clean(links, files | {"docs/a.md": sound})
         for path in ("src/engine/waist/gone.cpp", "engine/gone", "lenses/b.json", "engine/waist/gone.*"):
             self.assert_found(links, files | {"docs/a.md": f"`{path}`\n"}, f"docs/a.md: `{path}` is not in the repository")
