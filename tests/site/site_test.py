@@ -105,6 +105,14 @@ class Site(unittest.TestCase):
                     self.assertEqual(dark, "slate" if scheme == "dark" else "default")
                     self.assertEqual(self.browser.execute_script(FAINT), [])
 
+    def test_the_scheme_follows_the_system_on_later_visits(self):
+        self.open(KINDS["start"])
+        for scheme, shown in (("light", "default"), ("dark", "slate"), ("light", "default")):
+            self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia",
+                                         {"features": [{"name": "prefers-color-scheme", "value": scheme}]})
+            self.browser.get(f"{self.origin}/{KINDS['guide']}")
+            self.assertEqual(self.browser.execute_script("return document.body.dataset.mdColorScheme"), shown)
+
     def test_every_link_of_a_page_is_reached_by_tab_and_shows_it(self):
         self.open(KINDS["guide"])
         links = set(self.browser.execute_script("""return [...document.querySelectorAll("article a[href], .md-tabs a[href]")]
