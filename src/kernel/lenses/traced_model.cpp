@@ -92,8 +92,10 @@ Result<std::unique_ptr<const GeometricLens>> TracedModel::make(const optics::Pre
     std::unique_ptr<TracedModel> model(new TracedModel(choice, mount));
     const double factor = mount.camera.focal_length_mm / first->focal_length_mm;
     std::ostringstream text;
-    text << prescription.name << ", at f/" << mount.camera.f_number << ", scaled from "
-         << first->focal_length_mm << " mm to " << mount.camera.focal_length_mm << " mm";
+    text << prescription.name << ", at f/" << mount.camera.f_number;
+    if (std::abs(factor - 1) > 1e-6)
+        text << ", scaled from " << first->focal_length_mm << " mm to " << mount.camera.focal_length_mm
+             << " mm";
     if (!prescription.dispersion_known) text << ", without colour: the dispersion of its glass is not known";
     model->description_ = text.str();
     if (const Status status = model->trace(optics::scaled(prescription, factor)); !status)

@@ -53,6 +53,16 @@ TEST(TracedModel, EveryLensOfTheShelfKeepsItsEnergyFromTheMiddleToTheCorner) {
     }
 }
 
+TEST(TracedModel, IsCalledScaledOnlyAtAnotherFocalLength) {
+    LensChoice choice;
+    choice.name = "tessar";
+    Mount mount = mount_of(choice.name);
+    mount.camera.focal_length_mm = opened(choice.name).first_order().focal_length_mm;
+    EXPECT_EQ(lens_of(choice, mount)->description().find("scaled"), std::string::npos);
+    mount.camera.focal_length_mm *= 2;
+    EXPECT_NE(lens_of(choice, mount)->description().find("scaled from"), std::string::npos);
+}
+
 // Bits: that rays are used again changes none.
 TEST(TracedModel, AnotherLookUsesTheRaysOfTheLensAgain) {
     LensChoice choice;
