@@ -60,6 +60,13 @@ struct DepthReport {
     std::vector<std::string> warnings;
 };
 
+// Depth of few codes, as files of 8 or 16 bits hold it: joins plateaus of neighbouring codes, which are one
+// surface. Each value moves by at most half a step; steps of more are edges and stay. Returns the step
+// between codes; 0, and nothing changes, if the values have none. `are_codes`: they were whole numbers
+// (Frame::depth_is_share). Call it before depth_to_planar_metres(), as petzval defocus does for flat
+// pictures.
+PETZVAL_API float join_depth_codes(Plane& depth, const DepthSettings& settings, bool are_codes);
+
 // Rewrites a depth channel in place as planar metres; a miss becomes +infinity.
 //
 // A value is a miss if it is NaN, infinite, of size >= 1e10 or 65504 (the largest half), 0 (except where it

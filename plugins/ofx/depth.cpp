@@ -26,11 +26,44 @@ std::vector<float> plane_like(const LentImage& source, const At& at) {
     return values;
 }
 
+DepthSettings settings_of(const Values& v) {
+    DepthSettings settings;
+    settings.kind = v.depth_kind;
+    settings.unit_scale_m = v.depth_unit_m;
+    settings.focal_length_mm = v.focal_length_mm;
+    settings.sensor_width_mm = v.sensor_width_mm;
+    const bool may_begin_at_0 = v.depth_kind == DepthKind::Normalized || is_mist(v.depth_kind);
+    if (v.depth_near > 0 || (may_begin_at_0 && v.depth_far > 0)) settings.range_near = v.depth_near;
+    if (v.depth_far > 0) settings.range_far = v.depth_far;
+    return settings;
+}
+
+// Hosts that have only RGBA may put depth into alpha: then colour is 0 everywhere, and alpha is not coverage.
+bool is_in_alpha(const LentImage& depth) {
+    if (depth.channels() != 4) return false;
+    bool other_than_coverage = false;
+    for (int y = depth.bounds().y1; y < depth.bounds().y2; ++y)
+        for (int x = depth.bounds().x1; x < depth.bounds().x2; ++x) {
+            for (int channel = 0; channel < 3; ++channel)
+                if (depth.value(x, y, channel, 0) != 0) return false;
+            const float a = depth.value(x, y, 3, 0);
+            other_than_coverage = other_than_coverage || (a != 0 && a != 1);
+        }
+    return other_than_coverage;
+}
+
 Result<std::vector<float>> of_clip(const DepthQuestion& q, const char* clip) {
     const LentImage depth(q.effect, clip, q.time);
     if (!depth.is_there()) return refused(std::string("the clip ") + clip + " has no image at this frame");
     if (!depth.is_readable()) return refused(std::string("the clip ") + clip + " is not of float pixels");
-    return plane_like(*q.source, [&](int x, int y) { return depth.value(x, y, 0, kMiss); });
+    const int channel = is_in_alpha(depth) ? 3 : 0;
+    Plane plane(q.source->width(), q.source->height());
+    std::vector<float> values =
+        plane_like(*q.source, [&](int x, int y) { return depth.value(x, y, channel, kMiss); });
+    std::copy(values.begin(), values.end(), &plane(0, 0));
+    if (join_depth_codes(plane, settings_of(*q.values), false) > 0)
+        std::copy_n(&plane(0, 0), values.size(), values.begin());
+    return values;
 }
 
 Result<std::vector<float>> of_file(const DepthQuestion& q) {
@@ -40,8 +73,10 @@ Result<std::vector<float>> of_file(const DepthQuestion& q) {
     options.need_colour = false;
     options.depth_channel = v.depth_channel;
     const double frame_number = std::clamp(std::floor(q.time + v.depth_frame_offset), -1e9, 2e9);
-    const auto file = read_frame(at_frame(v.depth_file, int(frame_number)), options);
+    const std::string path = at_frame(v.depth_file, int(frame_number));
+    auto file = read_frame(path, options);
     if (!file) return file.error();
+    if (file->deep.empty()) join_depth_codes(file->depth, settings_of(v), file->depth_is_share);
     // The file covers the frame at full size; each pixel of the host takes the pixel under its centre.
     const petzval::Rect &whole = file->place.display_window, &data = file->place.data_window;
     const ofx::RectI& frame = q.frame->display;
@@ -76,17 +111,10 @@ Result<DepthOfFrame> in_metres(const DepthQuestion& q, std::vector<float> stored
         for (float& radius : stored) radius = float(radius * q.scale.x);
         return DepthOfFrame{std::move(stored), true};
     }
-    DepthSettings settings;
-    settings.kind = v.depth_kind;
-    settings.unit_scale_m = v.depth_unit_m;
-    settings.focal_length_mm = v.focal_length_mm;
-    settings.sensor_width_mm = v.sensor_width_mm;
-    if (v.depth_near > 0) settings.range_near = v.depth_near;
-    if (v.depth_far > 0) settings.range_far = v.depth_far;
     const Place place{q.frame->rect({q.frame->display}), q.frame->rect(q.source->bounds()),
                       q.frame->pixel_aspect};
     const View<float> plane(stored.data(), q.source->width(), q.source->height(), q.source->width());
-    const auto done = depth_to_planar_metres(plane, place, settings);
+    const auto done = depth_to_planar_metres(plane, place, settings_of(v));
     if (!done) return done.error();
     return DepthOfFrame{std::move(stored), false};
 }

@@ -29,9 +29,11 @@ constexpr std::array kNumbers{
            &Values::focus_distance_m, 3, 1e-4, kHuge, 0.1, 50},
     Number{"depthUnit", "Metres per unit", "Length of one unit of the depth channel, in metres.", "depth",
            &Values::depth_unit_m, 1, 1e-9, kHuge, 0.001, 1},
-    Number{"depthNear", "Depth range: near",
-           "Near end of the range, for depth kinds with a range, in units of the scene; 0: none.", "depth",
-           &Values::depth_near, 0, 0, kHuge, 0, 10},
+    Number{
+        "depthNear", "Depth range: near",
+        "Near end of the range, for depth kinds with a range, in units of the scene. 0: none; for normalized "
+        "and mist, the camera.",
+        "depth", &Values::depth_near, 0, 0, kHuge, 0, 10},
     Number{"depthFar", "Depth range: far",
            "Far end of the range, for depth kinds with a range, in units of the scene; 0: none.", "depth",
            &Values::depth_far, 0, 0, kHuge, 0, 100},

@@ -1,5 +1,7 @@
 #include "depth/quantised.h"
 
+#include "petzval/depth.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -138,6 +140,18 @@ Plane without_steps(View<const float> values, float quantum, bool (*has_value)(f
     for (int y = 0; y < values.height(); ++y)
         for (int x = 0; x < values.width(); ++x) joined(x, y) = plateaus.joined(x, y);
     return joined;
+}
+
+float join_depth_codes(Plane& depth, const DepthSettings& settings, bool are_codes) {
+    const float quantum = depth.empty() ? 0 : quantum_of(depth, are_codes);
+    if (!(quantum > 0)) return 0;
+    // A depth of 0 is missing, unless it is the end of a range.
+    const bool any = settings.kind == DepthKind::CocPx || (settings.range_near && settings.range_far);
+    depth = without_steps(
+        depth, quantum, any ? [](float v) { return std::isfinite(v); } : [](float v) {
+            return std::isfinite(v) && v != 0 && std::abs(v) < kNoValueFrom;
+        });
+    return quantum;
 }
 
 }  // namespace petzval

@@ -1,5 +1,7 @@
 #include "depth/quantised.h"
 
+#include "petzval/depth.h"
+
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -88,6 +90,35 @@ TEST(QuantisedDepth, WhatHasNoValueIsNoNeighbour) {
     const Plane joined = without_steps(codes, 1, [](float v) { return v != 0; });
     EXPECT_EQ(joined(19, 5), 0);
     EXPECT_GE(joined(20, 5), 0.5f);
+}
+
+TEST(QuantisedDepth, JoinsCodesUnlessThereAreNone) {
+    const auto slope = [](int x, int y) { return 0.2 + 0.001 * x + 0.0005 * y; };
+    Plane codes = in_codes(plane_of(320, 200, slope));
+    const Plane before = in_codes(plane_of(320, 200, slope));
+    DepthSettings settings;
+    EXPECT_NEAR(join_depth_codes(codes, settings, true), kQuantum, 1e-6);
+    EXPECT_NE(codes(100, 100), before(100, 100));
+    EXPECT_NEAR(codes(100, 100), before(100, 100), 0.51 * kQuantum);
+    const auto waves = [](int x, int y) { return 1 + std::sin(x * 0.7 + y * 1.3); };
+    Plane smooth = plane_of(320, 200, waves);
+    EXPECT_EQ(join_depth_codes(smooth, settings, false), 0);
+    EXPECT_EQ(smooth(7, 9), float(waves(7, 9)));
+    Plane nothing;
+    EXPECT_EQ(join_depth_codes(nothing, settings, true), 0);
+}
+
+// A code of 0 is missing depth, so it joins no neighbour; as the end of a range it is the nearest surface.
+TEST(QuantisedDepth, ZeroIsASurfaceOnlyInARange) {
+    const auto ramp = [] { return in_codes(plane_of(320, 20, [](int x, int) { return 0.0002 * x; })); };
+    DepthSettings metres, shares;
+    shares.kind = DepthKind::Normalized;
+    shares.range_near = 0, shares.range_far = 10;
+    Plane as_metres = ramp(), as_shares = ramp();
+    join_depth_codes(as_metres, metres, true);
+    join_depth_codes(as_shares, shares, true);
+    EXPECT_EQ(as_metres(9, 5), 0);
+    EXPECT_GT(as_shares(9, 5), 0);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include "shot/file_of_shot.h"
 
-#include "depth/quantised.h"
+#include "petzval/depth.h"
 
 #include <cmath>
 #include <cstdio>
@@ -36,16 +36,9 @@ DepthReport check_radii(View<float> radii) {
 
 // Steps of one code are not edges.
 void join_codes(Frame& frame, const DepthSettings& settings) {
-    if (frame.depth.empty() || !frame.deep.empty()) return;
-    const float quantum = quantum_of(frame.depth, frame.depth_is_share);
+    if (!frame.deep.empty()) return;
+    const float quantum = join_depth_codes(frame.depth, settings, frame.depth_is_share);
     if (!(quantum > 0)) return;
-    // A depth of 0 is missing, unless it is the end of a range.
-    const bool any = settings.kind == DepthKind::CocPx || (settings.range_near && settings.range_far);
-    constexpr float kMissFrom = 1e10f;
-    frame.depth = without_steps(
-        frame.depth, quantum, any ? [](float v) { return std::isfinite(v); } : [](float v) {
-            return std::isfinite(v) && v != 0 && std::abs(v) < kMissFrom;
-        });
     char text[96];
     std::snprintf(text, sizeof text, "depth: stored in steps of %.4g; neighbouring steps are one surface",
                   double(quantum));

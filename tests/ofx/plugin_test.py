@@ -136,6 +136,44 @@ class Plugin(unittest.TestCase):
         self.same(point, ["--focus-at", "80,44"])
         self.same({**point, "focusPoint": "0.5,0.5"}, ["--focus-at", "0,89"])
 
+    def depth_of(self, change):
+        """The scene's depth, each value changed, as rows."""
+        found, _ = pictures.read_exr(f"{self.folder}/night.exr")
+        return [[change(float(z), y) for z in row] for y, row in enumerate(found["Z"])]
+
+    def write_depth(self, name, depth):
+        colour, _ = pictures.read_exr(f"{self.folder}/sharp.exr")
+        pictures.write_exr(f"{self.folder}/{name}", {**{c: [list(map(float, row)) for row in colour[c]] for c in "RGBA"}, "Z": depth})
+
+    def same_depth(self, name, params, flags, *clips):
+        """The plug-in and the command line read the same depth of a file."""
+        self.render("host.exr", {**PARAMS, "focusDistance": 4.8, **params}, "--clip", "Source=sharp.exr", *clips)
+        self.command(PETZVAL, "defocus", "sharp.exr", "--depth", name, "-o", "line.exr", *CAMERA, "--focus", "4.8m", *flags, "--overwrite")
+        report = json.loads(self.command(PETZVAL, "compare", "line.exr", "host.exr", "--json", "-").stdout)
+        self.assertEqual(report["max_error"], 0, (name, params, report))
+
+    def test_depth_of_few_codes_is_joined_as_on_the_command_line(self):
+        self.write_depth("steps.exr", self.depth_of(lambda z, y: round(min(z, 25.5) * 10) / 10))
+        self.same_depth("steps.exr", {}, [], "--clip", "Depth=steps.exr:Z")
+        self.same_depth("steps.exr", {"depthFile": "steps.exr"}, [])
+
+    def test_depth_of_other_signs_and_misses_is_that_of_the_command_line(self):
+        for name, change in (("negative.exr", lambda z, y: -z), ("half.exr", lambda z, y: 65504 if y < 20 else z),
+                             ("mixed.exr", lambda z, y: -z if y < 20 else z), ("zero.exr", lambda z, y: 0 if y < 20 else z)):
+            self.write_depth(name, self.depth_of(change))
+            self.same_depth(name, {}, [], "--clip", f"Depth={name}:Z")
+
+    def test_a_range_may_begin_at_the_camera(self):
+        self.write_depth("shares.exr", self.depth_of(lambda z, y: min(z, 25.5) / 25.5))
+        for kind in ("normalized", "mist-linear"):
+            self.same_depth("shares.exr", {"depthFile": "shares.exr", "depthKind": kind, "depthFar": 25.5},
+                            ["--depth-kind", kind, "--depth-range", "0,25.5"])
+
+    def test_depth_may_lie_in_the_alpha_of_its_clip(self):
+        depth, black = self.depth_of(lambda z, y: z), pictures.plane(160, 90, lambda x, y: 0)
+        pictures.write_exr(f"{self.folder}/in-alpha.exr", {"R": black, "G": black, "B": black, "A": depth})
+        self.same({"focusDistance": 4.8}, ["--focus", "4.8m"], (*self.CLIPS[:2], "--clip", "Depth=in-alpha.exr"))
+
     def test_a_mask_and_units_are_those_of_the_command_line(self):
         self.same({"focusDistance": 2.4, "depthUnit": 0.5, "depthKind": "ray"},
                   ["--focus", "2.4m", "--unit-scale", "0.5", "--depth-kind", "ray"])
