@@ -124,17 +124,23 @@ static petzval_status look_of_text(const char* text, petzval_look** look) {
 
 static petzval_status look_of(const Defocus* self, petzval_look** look) {
     const char* text = text_given(self->look) ? self->look : "{\"petzval_look\": 1}";
-    petzval_status status = text_given(self->preset) ? petzval_look_from_preset(self->preset, look)
-                                                          : look_of_text(text, look);
+    petzval_status status =
+        text_given(self->preset) ? petzval_look_from_preset(self->preset, look) : look_of_text(text, look);
     if (!status && text_given(self->lens)) status = petzval_look_set(*look, "lens.name", self->lens);
     return status;
 }
 
-/* Depth in metres; what renderers write where nothing was hit becomes infinity. */
+/* Depth in metres by the rules of docs/reference/files.md. What renderers write where nothing was hit becomes
+ * infinity: 0, 1e10, and 65504 in half floats. Some renderers count all depth downwards from 0. */
 static void to_metres(float* depth, size_t count, double unit) {
-    for (size_t i = 0; i < count; ++i)
-        depth[i] =
-            isfinite(depth[i]) && depth[i] > 0 && depth[i] < 1e9f ? (float)(depth[i] * unit) : INFINITY;
+    gboolean positive = FALSE;
+    for (size_t i = 0; i < count && !positive; ++i)
+        positive = isfinite(depth[i]) && depth[i] > 0 && depth[i] < 1e10f && depth[i] != 65504;
+    for (size_t i = 0; i < count; ++i) {
+        const float stored = positive ? depth[i] : -depth[i];
+        const gboolean miss = !isfinite(stored) || !(stored > 0) || stored >= 1e10f || stored == 65504;
+        depth[i] = miss ? INFINITY : (float)(stored * unit);
+    }
 }
 
 /* petzval_defocus() writes through the pointers: NOLINTNEXTLINE(readability-non-const-parameter) */

@@ -116,12 +116,12 @@ class Doors(unittest.TestCase):
     def test_openfx_with_a_file_of_depth(self):
         self.ofx("openfx-file", "--context", "filter", "--param", f"depthFile={self.sharp}")
 
-    def gegl(self, door, *properties, aux=True):
-        """A frame of the GEGL operation; what GLib warned of."""
+    def gegl(self, door, *properties, aux=True, sign=1):
+        """A frame of the GEGL operation, of depth with this sign; what GLib warned of."""
         self.needs("PETZVAL_GEGL")
         shot = petzval.read_shot(self.sharp)
         pictures.write_exr(str(self.path("gegl-colour")), {c: shot.colour[..., i].tolist() for i, c in enumerate("RGBA")})
-        pictures.write_exr(str(self.path("gegl-depth")), {"Y": shot.depth_m.tolist()})
+        pictures.write_exr(str(self.path("gegl-depth")), {"Y": (sign * np.asarray(shot.depth_m)).tolist()})
         theirs = subprocess.run(["pkg-config", "--variable=pluginsdir", "gegl-0.4"], capture_output=True, text=True).stdout.strip()
         mine = pathlib.Path(os.environ["PETZVAL_GEGL"]).parent
         words = ["gegl", self.path("gegl-colour"), "-o", self.path(door), "--", "petzval:defocus", *properties]
@@ -136,6 +136,10 @@ class Doors(unittest.TestCase):
     def test_gegl(self):
         self.gegl("gegl", *self.CAMERA)
         self.same("gegl")
+
+    def test_gegl_with_negative_depth(self):
+        self.gegl("gegl-negative", *self.CAMERA, sign=-1)
+        self.same("gegl-negative")
 
     def test_gegl_through_a_preset(self):
         self.gegl("gegl-preset", *self.CAMERA[:-1], "preset=achromat")
