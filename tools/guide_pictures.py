@@ -1,4 +1,5 @@
-"""Makes pictures of docs/guide: deep, render passes, troubleshooting, soft depth, presets, OpenFX, GEGL, kit, packages.
+"""Makes pictures of docs/guide: deep, render passes, troubleshooting, camera numbers, soft depth, presets, OpenFX, GEGL, kit,
+packages.
 
 Usage: guide_pictures.py PROGRAM [NAME…]. Writes docs/pictures/guide-NAME.png, or .svg. OpenFX needs `ninja petzval_ofx
 ofx_check`, GEGL its operation, `gegl` and `oiiotool`, the kit a driver of Vulkan.
@@ -82,6 +83,11 @@ def troubleshooting(studio):
                                             for flags in ([], ["--expand-highlights"]))])
 
 
+def camera_numbers(studio):
+    night = studio.scene("night", width=480)
+    write("camera-numbers", [studio.blurred(night, "--sensor-width", width) for width in ("36mm", "24mm", "13mm")])
+
+
 def soft_depth(studio):
     soft = studio.scene("tori", "--depth-blur", 2, "--depth-bits", 8, width=480)
     write("soft-depth", [studio.blurred(soft, "--depth-edges", edges) for edges in ("keep", "auto")])
@@ -151,7 +157,7 @@ def packages(studio):
 
 def main(program, *names):
     with tempfile.TemporaryDirectory() as folder:
-        for make in (deep, render_passes, troubleshooting, soft_depth, presets, openfx, gegl, kit, packages):
+        for make in (deep, render_passes, troubleshooting, camera_numbers, soft_depth, presets, openfx, gegl, kit, packages):
             if not names or make.__name__.replace("_", "-") in names:
                 make(Studio(pathlib.Path(program).resolve(), pathlib.Path(tempfile.mkdtemp(dir=folder))))
 
