@@ -45,7 +45,7 @@ class Sources:
         self._first = {file.parts[0] for file in files if len(file.parts) > 1}
         self._rooms = {file.parts[1] for file in files if file.parts[0] == "src" and len(file.parts) > 2}
 
-    def lacks(self, path):
+    def is_missing(self, path):
         """True if the path begins with a folder of the repository or a room of src/, and does not exist. Other folders of
         src/ belong to other projects."""
         path = path.rstrip("/")
@@ -74,7 +74,7 @@ def wrong_links(root, page, tests, sources):
     for code in CODE.findall(LINK.sub("", text)):
         if TEST.fullmatch(code) and code not in tests:
             yield f"`{code}` is not a test"
-        if page.parent.name != "journal" and sources.lacks(code):
+        if page.parent.name != "journal" and sources.is_missing(code):
             yield f"`{code}` is not in the repository"
         for path in UPWARDS.findall(code):
             if not (page.parent / path).resolve().is_relative_to(root):
