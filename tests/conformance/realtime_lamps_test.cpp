@@ -170,6 +170,29 @@ TEST_F(Realtime, ALampBesideALeafHasTheRadiusOfWhatIsBehind) {
     }
 }
 
+// Pixels beside a silhouette that show a third of it, but have the background's depth, do not stop the light
+// of a lamp.
+TEST_F(Realtime, ASilhouettePixelDoesNotHideALamp) {
+    const auto scene = [](float share) {
+        Shot shot = flat(96, 64, {0.1f, 0.1f, 0.1f, 1}, 6);
+        const float mixed = 0.1f - 0.08f * share;
+        for (int y = 0; y < 64; ++y)
+            for (int x = 0; x <= 40; ++x) {
+                const float light = x < 40 ? 0.02f : mixed;
+                shot.colour(x, y) = {light, light, light, 1};
+                if (x < 40) shot.coc_px(x, y) = 1.1f;
+            }
+        shot.colour(44, 32) = {200, 200, 200, 1};
+        return shot;
+    };
+    const Shot clear = scene(0), mixed = scene(0.3f);
+    for (Session& session : sessions_) {
+        const Picture open = drawn(session, clear), made = drawn(session, mixed);
+        EXPECT_GT(open(39, 32).g, 0.5);
+        for (const int x : {39, 40}) EXPECT_NEAR(made(x, 32).g / open(x, 32).g, 1, 0.1) << x;
+    }
+}
+
 // A lamp in focus whose rim is filtered over its background and has the depth of that: no disc around it.
 TEST_F(Realtime, ALampInFocusHasNoHalo) {
     Shot shot = flat(96, 64, {0.02f, 0.02f, 0.02f, 1}, 12);

@@ -33,6 +33,12 @@ float radius_of(float depth) {
     const float radius = at.add_px + at.per_depth_px * depth;
     return radius == radius ? clamp(radius, -at.most_px, at.most_px) : 0.0;
 }
+// The last bit of a stored radius marks a silhouette pixel that has a neighbour's radius; its own depth is the background's.
+float with_mark(float radius, bool is_marked) {
+    const uint bits = packHalf2x16(vec2(radius, 0));
+    return unpackHalf2x16(is_marked ? bits | 1u : bits & ~1u).x;
+}
+bool has_mark(float stored) { return (packHalf2x16(vec2(stored, 0)) & 1u) != 0u; }
 // The share of light at this radius that cells draw; the rest is blurred pixel by pixel.
 const float kWholePx = 3.5;  // from there on they draw all
 float blurred_share(float radius_px) { return smoothstep(2.0, kWholePx, radius_px); }

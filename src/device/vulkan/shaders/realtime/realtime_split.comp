@@ -71,11 +71,11 @@ float share_of(vec4 near, vec4 light, vec4 behind) {
 
 // The signed radius of a pixel. A silhouette pixel shows a near surface and its background, and may have the background's
 // depth. It gets the near surface's radius if that gives most of its light; or if that is hardly blurred, because the
-// pixel is then part of a sharp outline.
-float own_radius(ivec2 pixel, vec4 light) {
+// pixel is then part of a sharp outline. `radius`: that of its depth.
+float own_radius(ivec2 pixel, vec4 light, float radius) {
     const float kApart = 0.4;  // pixels: less is blurred alike
     const float kSharpPx = 2;
-    const float radius = radius_of(texelFetch(depths, pixel, 0).r), own = brightness(light);
+    const float own = brightness(light);
     vec4 bright = light, dark = light;
     vec2 found = vec2(radius);  // of the brightest nearer pixel around, and of the darkest
     ivec2 to_bright = ivec2(0), to_dark = ivec2(0);
@@ -120,8 +120,8 @@ void main() {
         // Continues the border beyond the picture.
         const ivec2 corner = ivec2(i & 1, i >> 1), pixel = min(2 * cell + corner, at.size - 1);
         vec4 light = light_of(texelFetch(colours, pixel, 0));
-        const float radius = own_radius(pixel, light);
-        own_radii[i] = radius;
+        const float of_depth = radius_of(texelFetch(depths, pixel, 0).r), radius = own_radius(pixel, light, of_depth);
+        own_radii[i] = with_mark(radius, radius != of_depth);
         const vec4 bright = lamp_of(pixel, light);
         light -= bright;
         if (pixel == 2 * cell + corner) {

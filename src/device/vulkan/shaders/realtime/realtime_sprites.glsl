@@ -68,7 +68,7 @@ float seen(vec2 from, vec2 to, float radius) {
         const float way = float(i) / float(kSteps);
         const ivec2 pixel = clamp(ivec2(floor(mix(from, to, way))), ivec2(0), at.size - 1);
         const float there = radius_at(pixel);
-        const float is_nearer = smoothstep(0.05, 0.2, 1 - there / radius);
+        const float is_nearer = has_mark(there) ? 0.0 : smoothstep(0.05, 0.2, 1 - there / radius);
         hidden += is_nearer * max(0.0, 1 - float(kSteps) * abs(1 - there / radius - way));
     }
     return 1 - min(hidden, 1.0);
