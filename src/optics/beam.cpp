@@ -15,6 +15,14 @@ constexpr double kAimed = 1e-9;
 
 }  // namespace
 
+// x^i and y^i up to the map's highest degree.
+struct Beam::Powers {
+    explicit Powers(Point p) {
+        for (int i = 1; i < 8; ++i) x[i] = x[i - 1] * p.x, y[i] = y[i - 1] * p.y;
+    }
+    double x[8] = {1}, y[8] = {1};
+};
+
 // Directions and object for a field angle; the chief ray is not known yet.
 void Beam::point_at(double field_rad) {
     direction_ = {0, std::sin(field_rad), std::cos(field_rad)};
@@ -112,7 +120,7 @@ std::optional<Beam::Aimed> Beam::aim_carefully(Point stop, Point start) const {
     auto here = stop_from_launch(at);
     for (int iteration = 0; here && iteration < 25; ++iteration) {
         const Point miss{here->x - stop.x, here->y - stop.y};
-        const double missed = std::hypot(miss.x, miss.y);
+        const double missed = std::sqrt(miss.x * miss.x + miss.y * miss.y);
         if (missed < kAimed) return Aimed{at, here->before};
         const auto [right, up] = stop_from_two({at.x + dx, at.y}, {at.x, at.y + dy});
         if (!right || !up) return std::nullopt;
@@ -133,22 +141,35 @@ std::optional<Beam::Aimed> Beam::aim_carefully(Point stop, Point start) const {
     return std::nullopt;
 }
 
-// Exactly aimed rays on rings of the half stop x >= 0 (the other half mirrors it), each started from its
-// inner neighbour; then the polynomial of highest degree that they determine.
+// Rays that land on or near rings of the half stop x >= 0 (the other half mirrors it), each aimed by the two
+// before it on its spoke; then the polynomial of highest degree that they determine. Where a ray really lands
+// is what counts, so only one that misses its ring is aimed by Newton's method.
 void Beam::fit_map() {
     constexpr int kRings = 6, kSpokes = 13;
+    constexpr double kNear = 0.02;  // in stop radii; the outermost rings are 0.034 apart
     std::vector<Point> stop{{0, 0}}, launched{chief_};
     for (int spoke = 0; spoke < kSpokes; ++spoke) {
         const double angle = std::numbers::pi * (double(spoke) / (kSpokes - 1) - 0.5);
-        Point from = chief_;
+        const Point along{std::cos(angle), std::sin(angle)};
+        Point from = chief_, rate{scale_.x * along.x, scale_.y * along.y};
+        double reached = 0;
         for (int ring = 1; ring <= kRings; ++ring) {
             const double r = std::sin(std::numbers::pi / 2 * ring / kRings);  // denser towards the rim
-            const Point target{r * std::cos(angle), r * std::sin(angle)};
-            const auto at = aim_carefully(target, from);
-            if (!at) break;
-            from = at->launch;
-            stop.push_back(target);
-            launched.push_back(from);
+            const double step = r - reached;
+            Point at{from.x + step * rate.x, from.y + step * rate.y}, lands{r * along.x, r * along.y};
+            const auto here = stop_from_launch(at);
+            if (here && std::hypot(here->x - lands.x, here->y - lands.y) < kNear) {
+                lands = {here->x, here->y};
+            } else {
+                const auto aimed = aim_carefully(lands, from);
+                if (!aimed) break;
+                at = aimed->launch;
+            }
+            rate = {(at.x - from.x) / step, (at.y - from.y) / step};
+            from = at;
+            reached = r;
+            stop.push_back(lands);
+            launched.push_back(at);
         }
     }
     for (const int degree : {7, 5, 3, 1})
@@ -167,8 +188,8 @@ bool Beam::fit(const std::vector<Point>& stop, const std::vector<Point>& launche
         std::vector<double> target;
         for (std::size_t k = 0; k < stop.size(); ++k) {
             auto& row = rows.emplace_back();
-            for (const Term& term : map)
-                row.push_back(std::pow(stop[k].x, term.i) * std::pow(stop[k].y, term.j));
+            const Powers powers(stop[k]);
+            for (const Term& term : map) row.push_back(powers.x[term.i] * powers.y[term.j]);
             target.push_back(component(launched[k]));
         }
         const auto solution = least_squares(std::move(rows), std::move(target));
@@ -182,15 +203,13 @@ bool Beam::fit(const std::vector<Point>& stop, const std::vector<Point>& launche
 }
 
 Beam::Guess Beam::guess(double stop_x, double stop_y) const {
-    constexpr int kPowers = 8;
-    double px[kPowers] = {1}, py[kPowers] = {1};
-    for (int i = 1; i < kPowers; ++i) px[i] = px[i - 1] * stop_x, py[i] = py[i - 1] * stop_y;
+    const Powers p({stop_x, stop_y});
     Guess g;
     const auto add = [&](const std::vector<Term>& map, double& value, double& by_x, double& by_y) {
         for (const auto& [i, j, c] : map) {
-            value += c * px[i] * py[j];
-            if (i > 0) by_x += c * i * px[i - 1] * py[j];
-            if (j > 0) by_y += c * j * px[i] * py[j - 1];
+            value += c * p.x[i] * p.y[j];
+            if (i > 0) by_x += c * i * p.x[i - 1] * p.y[j];
+            if (j > 0) by_y += c * j * p.x[i] * p.y[j - 1];
         }
     };
     add(map_x_, g.at.x, g.by_x.x, g.by_y.x);
@@ -207,7 +226,7 @@ std::optional<Beam::Aimed> Beam::aim(Point stop) const {
         const auto here = stop_from_launch(at);
         if (!here) break;
         const Point miss{here->x - stop.x, here->y - stop.y};
-        const double missed = std::hypot(miss.x, miss.y);
+        const double missed = std::sqrt(miss.x * miss.x + miss.y * miss.y);
         if (missed < kAimed) return Aimed{at, here->before};
         if (missed > 0.5 * last_miss) break;
         last_miss = missed;

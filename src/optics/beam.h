@@ -3,7 +3,7 @@
 // The paraxial entrance pupil is only where the stop SEEMS to be near the axis: for a wide lens the bundle
 // that really fills the stop enters elsewhere. So the chief ray is found by following the stop's centre from
 // the axis outwards in field angle (which holds beyond 90 degrees as well), and a polynomial map from the
-// stop to the entering wavefront, fitted to exactly aimed rays, gives the first guess that Newton's method
+// stop to the entering wavefront, fitted to traced rays, gives the first guess that Newton's method
 // finishes.
 #pragma once
 
@@ -57,6 +57,7 @@ private:
     struct Point {
         double x = 0, y = 0;
     };
+    struct Powers;
     // A polynomial of stop coordinates: sum of coefficient x^i y^j.
     struct Term {
         int i = 0, j = 0;
