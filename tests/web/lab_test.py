@@ -191,7 +191,9 @@ class Lab(Page):
     def test_discs_follow_a_drag(self):
         """Of each lens, the best of some moves of a slider: CPU milliseconds of the page to the first disc and to the exact one."""
         self.open()
-        for name, slider, most_ms in (("doublet", "spherical", 100), ("tessar", "coma", 500), ("sigma-art-40", "coma", 800)):
+        yardstick, _ = self.yardstick_ms()
+        print(f"a yardstick: {yardstick:.0f} ms of CPU", flush=True)
+        for name, slider, most in (("doublet", "spherical", 1.5), ("tessar", "coma", 2), ("sigma-art-40", "coma", 2)):
             self.done("lab.use(args[0])", {"name": name, "text": None, "look": {}})
             self.idle()
             coarse, exact = [], []
@@ -207,12 +209,13 @@ class Lab(Page):
                     times.append(self.cpu_ms() - start)
                 self.idle()
             print(f"{name}: {min(coarse):.0f} ms of CPU from a move to the coarse disc, {min(exact):.0f} ms to the exact one", flush=True)
-            self.assertLess(min(exact), most_ms)
+            self.assertLess(min(exact), most * yardstick)
 
-    def test_a_first_disc_on_another_camera_comes_within_half_a_second(self):
+    def test_a_first_disc_on_another_camera_comes_soon(self):
         """CPU milliseconds of the call of the worker, best of some cameras: each traces the slowest lens anew."""
         self.open()
         self.idle()
+        yardstick, _ = self.yardstick_ms()
         times = []
         for f_number in (1.8, 2, 2.2, 2.5, 2.8):
             camera = {"focal_mm": 40, "sensor_mm": 36, "f_number": f_number, "focus_m": 2, "width_px": 1920, "height_px": 1080}
@@ -220,19 +223,20 @@ class Lab(Page):
             self.ask("disc", lens={"name": "sigma-art-40", "text": None, "look": {}}, camera=camera, coc_px=20, x=0.6, y=0.2)
             times.append(self.cpu_ms() - start)
         print(f"sigma-art-40: {', '.join(f'{t:.0f}' for t in times)} ms of CPU to a first disc on another camera", flush=True)
-        self.assertLess(min(times), 500)
+        self.assertLess(min(times), 3.5 * yardstick)
 
-    def test_it_answers_within_a_second_on_a_slow_machine(self):
+    def test_it_answers_soon_on_a_slow_machine(self):
         self.browser.execute_cdp_cmd("Emulation.setCPUThrottlingRate", {"rate": 4})
         self.addCleanup(self.browser.execute_cdp_cmd, "Emulation.setCPUThrottlingRate", {"rate": 1})
         times = []
         for _ in range(3):
             self.open()
             times.append(self.browser.execute_script('return performance.getEntriesByName("interactive")[0].startTime'))
-        print(f"interactive after {min(times):.0f} ms with the page's thread slowed down four times", flush=True)
+        _, yardstick = self.yardstick_ms()
+        print(f"interactive after {min(times):.0f} ms with the page's thread slowed down four times, where a yardstick takes {yardstick:.0f} ms", flush=True)
         if os.getloadavg()[0] > os.cpu_count():
             self.skipTest(f"the machine is busy: load {os.getloadavg()[0]:.0f}")
-        self.assertLess(min(times), 1000)
+        self.assertLess(min(times), 2 * yardstick)
 
     def test_two_lenses_stand_side_by_side(self):
         self.open()

@@ -98,6 +98,19 @@ class Page(unittest.TestCase):
             return process == str(self.browser.service.process.pid)
         return 1000 * sum(ticks[process] for process in ticks if is_ours(process)) / os.sysconf("SC_CLK_TCK")
 
+    def yardstick_ms(self):
+        """CPU time of a fixed piece of arithmetic in the page, and its time by the page's clock: limits of speed are multiples of it, since machines differ."""
+        measured = []
+        for _ in range(3):
+            start = self.cpu_ms()
+            clock = self.browser.execute_script("""
+                const start = performance.now();
+                let x = 2;
+                for (let i = 0; i < 2e7; ++i) x = Math.sqrt(x + 1 / x);
+                return x > 1 ? performance.now() - start : NaN;""")
+            measured.append(((self.cpu_ms() - start) / 2, clock / 2))
+        return tuple(map(min, zip(*measured)))
+
     def idle(self):
         """Waits until the kernel has answered all that was asked, and the texture's turn is over."""
         self.done("new Promise((later) => setTimeout(later, 350)).then(() => lab.kernel.ask('version'))")
