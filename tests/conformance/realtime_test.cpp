@@ -252,6 +252,27 @@ TEST_F(Realtime, StripesContinueBehindAWireAndKeepNoneOfItsColour) {
     }
 }
 
+// A bright square behind focus, seen past a surface far in front of focus: cells have different taps, and
+// their grid does not show.
+TEST_F(Realtime, LightBehindANearSurfaceShowsNoGrid) {
+    Shot shot = flat(256, 128, {0.01f, 0.01f, 0.01f, 1}, 44);
+    for (int y = 0; y < 128; ++y)
+        for (int x = 0; x < 110; ++x) shot.coc_px(x, y) = -60;
+    for (int y = 60; y < 68; ++y)
+        for (int x = 114; x < 122; ++x) shot.colour(x, y) = {30, 30, 30, 1};
+    for (Session& session : sessions_) {
+        const Picture made = drawn(session, shot);
+        double grid = 0, light = 0;
+        for (int y = 40; y < 88; ++y)
+            for (int x = 80; x < 108; ++x) {
+                const float beside = made(x - 2, y).g + made(x + 2, y).g;
+                grid += double(std::abs(made(x, y).g - 0.5f * beside)), light += double(made(x, y).g);
+            }
+        EXPECT_GT(light, 2 * 0.01 * 28 * 48);
+        EXPECT_LT(grid / light, 0.02);
+    }
+}
+
 TEST_F(Realtime, GlitterKeepsItsLight) {
     Shot shot = flat(128, 96, {}, 9);
     paint_noise(shot.colour, 5);

@@ -188,8 +188,8 @@ vec4 back_at(ivec2 pixel, float radius, out float is_known) {
     for (int i = 0; i < 4; ++i) {
         const ivec2 d = ivec2(i & 1, i >> 1), cell = clamp(low + d, ivec2(0), last);
         const vec4 area = texelFetch(gathered, ivec3(cell, kGatheredArea), 0);
-        // Four cells have the taps of four sets: a wide disc shows the mean of them.
-        const vec2 near_it = mix(mix(1 - share, share, vec2(d)), vec2(0.5), smoothstep(16.0, 40.0, radius));
+        // Four cells have the taps of four sets: a wide disc shows the mean of them, also one behind a near surface.
+        const vec2 near_it = mix(mix(1 - share, share, vec2(d)), vec2(0.5), smoothstep(16.0, 40.0, abs(radius)));
         const float own = gathered_radius(radius);
         float alike = radius > 0 ? exp2(-4 * abs(area.y - own) / (1 + 0.5 * radius)) : 1.0;
         // If neither the pixel nor the cell is nearly sharp, both know the light between them.
