@@ -252,6 +252,28 @@ TEST_F(Realtime, StripesContinueBehindAWireAndKeepNoneOfItsColour) {
     }
 }
 
+// A slanted wire, wider than combine looks past, and stripes along it: a move along the wire by a part of a
+// group (8 px) changes nothing.
+TEST_F(Realtime, ASlantedWireShowsNoGroupsOfPixels) {
+    constexpr int kSide = 160;
+    Shot shot = flat(kSide, kSide, {}, 0);
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x) {
+            const int across = std::abs(x - y);
+            const float light = across < 7 ? 0.5f : across == 7 ? 0.35f : across % 6 < 3 ? 0.1f : 0.3f;
+            shot.colour(x, y) = {light, light, light, 1};
+            if (across < 7) shot.coc_px(x, y) = -30;
+        }
+    for (Session& session : sessions_) {
+        const Picture made = drawn(session, shot);
+        float apart = 0;
+        for (int y = 60; y < 96; ++y)
+            for (int x = y - 6; x <= y + 6; ++x)
+                apart = std::max(apart, std::abs(made(x, y).g - made(x + 4, y + 4).g));
+        EXPECT_LT(apart, 0.01f);
+    }
+}
+
 // A bright square behind focus, seen past a surface far in front of focus: cells have different taps, and
 // their grid does not show.
 TEST_F(Realtime, LightBehindANearSurfaceShowsNoGrid) {

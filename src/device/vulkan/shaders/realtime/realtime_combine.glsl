@@ -168,7 +168,7 @@ Fine fine(float radius, float back_px, float near_px, bool has_near) {
     if (back_area > 1e-3) {
         sum.back = back / back_area;
         sum.back_area = min(back_area, 1.0);
-    } else if (radius < 0) {
+    } else if (radius < 0 && radius > -kWholePx) {  // wider ones keep what cells found, or groups would show
         const Behind behind = behind_at(own, radius);
         if (behind.area > 0) sum.back = behind.light, sum.back_area = behind.sharp;
         else if (sum.area > 0) sum.back = sum.near / sum.area;
