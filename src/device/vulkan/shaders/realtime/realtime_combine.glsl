@@ -16,11 +16,12 @@ float radius_at(ivec2 pixel) {
 
 // Sums blurs too fine for cells of two pixels: a pixel and those around it, each over a disc of its radius, from a window
 // that the group reads once. Background is seen through the pixel's own disc.
-const int kRim = 3, kAcross = 8 + 2 * kRim;  // pixels
+const int kRim = 3, kAcross = 8 + 2 * kRim, kSquare = 2 * kRim + 1;  // pixels
 shared vec4 window[kAcross * kAcross];
 shared vec2 window_discs[kAcross * kAcross];  // signed reach, at least half a pixel; light that a pixel of the disc gets
 shared uint widest_px[2];  // as bits, of pixels in the window that are blurred pixel by pixel: behind focus, in front of it
-shared float distances[kRim + 1][kRim + 1];
+const int kToRight = kRim * kSquare + kRim + 1;
+shared float inside[kSquare * kSquare];  // by offset, from (-kRim, -kRim): half a pixel less the distance
 float of_each(float radius_px) {
     return (1 - blurred_share(radius_px)) / max(1.0, 3.14159 * radius_px * radius_px);
 }
@@ -46,7 +47,7 @@ void read_window() {
     barrier();
     for (int i = 0; i < 2; ++i)
         if (widest[i] > 0) atomicMax(widest_px[i], floatBitsToUint(widest[i]));
-    if (own < 16) distances[own / 4][own % 4] = length(vec2(own % 4, float(own / 4) / at.aspect));
+    if (own < kSquare * kSquare) inside[own] = 0.5 - length(vec2(own % kSquare - kRim, float(own / kSquare - kRim) / at.aspect));
 }
 // Offsets of pixels that a disc reaches.
 int last_offset(float radius_px) { return min(int(ceil(max(radius_px, 0.5) + 0.5)) - 1, kRim); }
@@ -79,7 +80,7 @@ Behind behind_at(int own, float near_px) {
     Behind sum = Behind(vec4(0), 0, 0, 0);
     [[dont_unroll]] for (int axis = 0; axis < 4; ++axis) {
         const int along = axis == 0 ? 1 : kAcross + axis - 2;
-        const float step_px = axis == 0 ? distances[0][1] : distances[1][abs(axis - 2)];
+        const float step_px = 0.5 - inside[axis == 0 ? kToRight : kToRight + kSquare - 3 + axis];
         const End one = end_of(own, along, step_px, near_px), other = end_of(own, -along, step_px, near_px);
         const vec2 bright = vec2(brightness(one.light), brightness(other.light));
         vec2 w = weights_of(one.light, other.light, vec2(one.away, other.away), vec2(one.likely, other.likely));
@@ -147,24 +148,25 @@ Fine fine(float radius, float back_px, float near_px, bool has_near) {
     float back_area = 0;
     const float opening = reach_of(max(radius, 0.0)), of_opening = of_each(max(radius, 0.0));
     int far = last_offset(back_px);
-    for (int y = -far; y <= far; ++y)
-        for (int x = -far; x <= far; ++x) {
-            const int there = own + y * kAcross + x;
+    for (int y = -far; y <= far; ++y) {
+        int there = own + y * kAcross - far, i = (y + kRim) * kSquare + kRim - far;
+        for (const int last = there + 2 * far; there <= last; ++there, ++i) {
             const vec2 disc = window_discs[there];
-            const float covers = clamp(min(disc.x, opening) + (0.5 - distances[abs(y)][abs(x)]), 0.0, 1.0);
-            const float area = covers * max(disc.y, of_opening);
+            const float area = clamp(min(disc.x, opening) + inside[i], 0.0, 1.0) * max(disc.y, of_opening);
             back += area * window[there];
             back_area += area;
         }
+    }
     far = last_offset(near_px);  // 0: what is in focus, a little before it
-    for (int y = -far; y <= far; ++y)
-        for (int x = -far; x <= far; ++x) {
-            const int there = own + y * kAcross + x;
+    for (int y = -far; y <= far; ++y) {
+        int there = own + y * kAcross - far, i = (y + kRim) * kSquare + kRim - far;
+        for (const int last = there + 2 * far; there <= last; ++there, ++i) {
             const vec2 disc = window_discs[there];
-            const float area = disc.y * clamp((0.5 - distances[abs(y)][abs(x)]) - disc.x, 0.0, 1.0);
+            const float area = disc.y * clamp(inside[i] - disc.x, 0.0, 1.0);
             sum.near += area * window[there];
             sum.area += area;
         }
+    }
     if (back_area > 1e-3) {
         sum.back = back / back_area;
         sum.back_area = min(back_area, 1.0);

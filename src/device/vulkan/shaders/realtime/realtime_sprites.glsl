@@ -63,13 +63,15 @@ vec4 kernel_at(int lamp, vec2 offset) {
 // none at `to`; an occluder with the remaining radius stops it there.
 float seen(vec2 from, vec2 to, float radius) {
     const int kSteps = 8;
-    float hidden = 0;
+    const vec2 step_px = (to - from) / float(kSteps);
+    const float per_radius = 1 / radius;
+    vec2 place = from;
+    float hidden = 0, way = 0;
     [[dont_unroll]] for (int i = 1; i <= kSteps; ++i) {
-        const float way = float(i) / float(kSteps);
-        const ivec2 pixel = clamp(ivec2(floor(mix(from, to, way))), ivec2(0), at.size - 1);
-        const float there = radius_at(pixel);
-        const float is_nearer = has_mark(there) ? 0.0 : smoothstep(0.05, 0.2, 1 - there / radius);
-        hidden += is_nearer * max(0.0, 1 - float(kSteps) * abs(1 - there / radius - way));
+        place += step_px, way += 1;
+        const float there = radius_at(clamp(ivec2(place), ivec2(0), at.size - 1)), nearer = 1 - there * per_radius;
+        if (nearer < 0.05 || has_mark(there)) continue;
+        hidden += smoothstep(0.05, 0.2, nearer) * max(0.0, 1 - abs(float(kSteps) * nearer - way));
     }
     return 1 - min(hidden, 1.0);
 }
@@ -81,18 +83,18 @@ float seen(vec2 from, vec2 to, float radius) {
 float let_through(vec2 from, vec2 to, float radius, float near_px) {
     const int kSteps = 8;
     const bool is_near = radius < 0;
-    const float begin = is_near ? 1.0 : 0.0, step_of = (near_px / abs(radius) - begin) / float(kSteps);
+    const float per_radius = 1 / abs(radius), begin = is_near ? 1.0 : 0.0, step_of = (near_px * per_radius - begin) / float(kSteps);
     if (step_of <= 0) return 1;
-    const vec2 start = is_near ? from : to, way_px = is_near ? from - to : to - from;
-    const float level = clamp(log2(0.5 * step_of * length(way_px)), 0.0, 3.0);
-    float hidden = 0;
+    const vec2 step_px = step_of * (is_near ? from - to : to - from), texel = 0.5 / vec2(8 * at.tiles), step_at = step_px * texel;
+    const float level = clamp(log2(0.5 * length(step_px)), 0.0, 3.0), per_step = 1 / step_of;
+    vec2 place = (is_near ? from : to) * texel;
+    float hidden = 0, steps = begin * per_step;
     [[dont_unroll]] for (int i = 1; i <= kSteps; ++i) {
-        const float way = float(i) * step_of;
-        const vec2 place = (start + way * way_px) * 0.5 / vec2(8 * at.tiles);
+        place += step_at, steps += 1;
         const vec3 near = textureLod(cells, vec3(place, kNear), level).xyz;
-        const float there = near.y / max(near.z, 1e-7) / abs(radius) - begin;
-        const float covers = near.x > 1e-3 ? near.x * max(0.0, 1 - abs(there - way) / step_of) : 0.0;
-        hidden += covers * (is_near ? smoothstep(0.2, 0.5, there) : 1.0);  // a lamp is not cut by what it hangs on
+        if (near.x <= 1e-3) continue;
+        const float there = near.y * per_radius / max(near.z, 1e-7), covers = near.x * max(0.0, 1 - abs(there * per_step - steps));
+        hidden += covers * (is_near ? smoothstep(0.2, 0.5, there - begin) : 1.0);  // a lamp is not cut by what it hangs on
     }
     return 1 - min(hidden, 1.0);
 }
