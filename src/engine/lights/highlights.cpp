@@ -226,48 +226,63 @@ float share_that_leaves(std::span<const CocSample> samples, float same_pixel_px)
     return open;
 }
 
+// Rows of samples from which light is taken; first_row is the picture's row of the first one.
+struct Rows {
+    CocSamples& samples;
+    const HighlightSplit& split;
+    int first_row;
+};
+
+// Takes the light of the samples of pixel (x, y): the front-most bright one goes into the block, which is
+// made for the first such pixel, and all others are highlights of one pixel.
+void take_pixel(const Rows& rows, int x, int y, std::optional<Block>& block, std::vector<Highlight>& out) {
+    CocSamples& samples = rows.samples;
+    const HighlightSplit& split = rows.split;
+    const float same_pixel_px = split.rule().same_pixel_px;
+    const std::size_t i = std::size_t(y) * std::size_t(samples.width) + std::size_t(x);
+    const std::size_t first = samples.first[i];
+    bool in_block = false;
+    for (std::size_t k = first; k < samples.first[i + 1]; ++k) {
+        CocSample& sample = samples.samples[k];
+        const Rgba base = split.base(x, rows.first_row + y, sample.coc_px, sample.colour);
+        if (base == sample.colour) continue;
+        const Rgba taken = sample.colour - base;
+        const auto up_to_this = std::span(samples.samples).subspan(first, k + 1 - first);
+        const float leaves = same_pixel_px > 0 ? share_that_leaves(up_to_this, same_pixel_px) : 1;
+        const float coc = std::clamp(split.radius_of_light(x, rows.first_row + y, sample.coc_px),
+                                     -kWidestHighlightPx, kWidestHighlightPx);
+        sample.colour = base;
+        if (in_block) {
+            out.push_back({x, y, 1, coc, leaves * taken});
+            continue;
+        }
+        if (!block) block.emplace(x - x % kLargestSquare, y - y % kLargestSquare, rows.first_row);
+        block->put(x, y, coc, {taken, k, leaves}), in_block = true;
+    }
+}
+
+// Takes the light of the block of pixels whose first is (x0, y0).
+void take_block(const Rows& rows, int x0, int y0, int largest_square, std::vector<Highlight>& out) {
+    const int right = std::min(rows.samples.width, x0 + kLargestSquare);
+    const int bottom = std::min(rows.samples.height(), y0 + kLargestSquare);
+    std::optional<Block> block;  // made where there is light to be taken
+    for (int y = y0; y < bottom; ++y)
+        for (int x = x0; x < right; ++x) take_pixel(rows, x, y, block, out);
+    if (!block) return;
+    for (int size = largest_square; size > 1; size /= 2) block->take_squares(size, rows.split, out);
+    block->finish(rows.split, rows.samples, out);
+}
+
 }  // namespace
 
 std::vector<Highlight> take_highlights(CocSamples& samples, const HighlightSplit& split, int first_row,
                                        int largest_square, Workers& workers) {
-    const int width = samples.width, height = samples.height();
-    const int bands = (height + kLargestSquare - 1) / kLargestSquare;
+    const Rows rows{samples, split, first_row};
+    const int bands = (samples.height() + kLargestSquare - 1) / kLargestSquare;
     std::vector<std::vector<Highlight>> found(static_cast<std::size_t>(bands));
     parallel_for(bands, workers, [&](int band) {
-        std::vector<Highlight>& out = found[std::size_t(band)];
-        const int y0 = band * kLargestSquare;
-        for (int x0 = 0; x0 < width; x0 += kLargestSquare) {
-            std::optional<Block> block;  // made where there is light to be taken
-            for (int y = y0; y < std::min(height, y0 + kLargestSquare); ++y)
-                for (int x = x0; x < std::min(width, x0 + kLargestSquare); ++x) {
-                    const std::size_t i = std::size_t(y) * std::size_t(width) + std::size_t(x);
-                    bool in_block = false;
-                    for (std::size_t k = samples.first[i]; k < samples.first[i + 1]; ++k) {
-                        CocSample& sample = samples.samples[k];
-                        const Rgba base = split.base(x, first_row + y, sample.coc_px, sample.colour);
-                        if (base == sample.colour) continue;
-                        const Rgba taken = sample.colour - base;
-                        const float leaves =
-                            split.rule().same_pixel_px > 0
-                                ? share_that_leaves(std::span(samples.samples)
-                                                        .subspan(samples.first[i], k + 1 - samples.first[i]),
-                                                    split.rule().same_pixel_px)
-                                : 1;
-                        const float coc = std::clamp(split.radius_of_light(x, first_row + y, sample.coc_px),
-                                                     -kWidestHighlightPx, kWidestHighlightPx);
-                        sample.colour = base;
-                        if (in_block) {
-                            out.push_back({x, y, 1, coc, leaves * taken});
-                            continue;
-                        }
-                        if (!block) block.emplace(x0, y0, first_row);
-                        block->put(x, y, coc, {taken, k, leaves}), in_block = true;
-                    }
-                }
-            if (!block) continue;
-            for (int size = largest_square; size > 1; size /= 2) block->take_squares(size, split, out);
-            block->finish(split, samples, out);
-        }
+        for (int x0 = 0; x0 < samples.width; x0 += kLargestSquare)
+            take_block(rows, x0, band * kLargestSquare, largest_square, found[std::size_t(band)]);
     });
     std::vector<Highlight> highlights;
     for (const auto& band : found) highlights.insert(highlights.end(), band.begin(), band.end());
