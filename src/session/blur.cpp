@@ -215,8 +215,8 @@ Result<Blurred> blurred_by_either(const NotingDevice& drawing, const std::string
         const bool never_fails = drawing.name() == std::string_view(device::cpu_device().name());
         auto made = blurred_by(drawing, blur, never_fails ? spare : nullptr);
         if (made && asked.starts_with("gpu") && made->report.device != drawing.name())
-            made->report.warnings.push_back("session.device " + asked + " draws nothing of job.engine " +
-                                            engine + "'s; the CPU made the frame");
+            made->report.warnings.push_back("session.device " + asked + " was not used; job.engine " +
+                                            engine + " drew this frame on the CPU");
         return made;
     } catch (const device::Failed& failed) {
         if (failed.error.code != ErrorCode::OutOfMemory || engine == "realtime") throw;

@@ -128,7 +128,7 @@ struct Drawer {
     // True if nothing in the frame is blurred: a draft then returns the input, and the report says so.
     static bool had_nothing_to_draw(const DefocusReport& report) {
         return std::any_of(report.warnings.begin(), report.warnings.end(), [](const std::string& line) {
-            return line.find("draws nothing of") != std::string::npos;
+            return line.find("drew this frame on the CPU") != std::string::npos;
         });
     }
     // The picture of a job; fails where it was not this engine and this device that drew it.
