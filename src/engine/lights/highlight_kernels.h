@@ -6,20 +6,17 @@
 #include "engine/lights/highlights.h"
 #include "engine/waist/engine.h"
 #include "kernel/keep/bank.h"
+#include "kernel/keep/kernel_cache.h"
 
-#include <memory>
 #include <vector>
 
 namespace petzval::engine {
 
-class SquareLens;
-
 // Kernels of highlights. An ask's piece holds the size of the square and the precision of radius and place;
-// step and zone are those of the named bank.
+// step and zone are those of the bank of points of that precision.
 class HighlightKernels final : public device::KernelSource, public device::Memory::Thing {
 public:
     explicit HighlightKernels(const EngineView& input);
-    ~HighlightKernels() override;
 
     // fine: radius and place of the kernel as close to the highlight's as is visible.
     device::KernelAsk ask(const Highlight& h, kernel::FieldPosition field, bool fine) const;
@@ -27,8 +24,10 @@ public:
     std::size_t bytes() const override;
 
 private:
-    std::vector<std::unique_ptr<const SquareLens>> lenses_;
-    std::vector<std::unique_ptr<const kernel::KernelBank>> banks_;  // by piece
+    const kernel::KernelBank& points(bool fine) const { return fine ? fine_points_ : points_; }
+
+    kernel::KernelBank points_, fine_points_;
+    mutable kernel::KernelCache<device::KernelAsk> squares_;  // of more than one pixel
 };
 
 }  // namespace petzval::engine

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -91,6 +92,7 @@ bool LightsPlanner::next(LightsPlan& plan) {
     plan.stretch = float(std::max(1.0, input_.lens.pixel_aspect));
     std::vector<std::uint32_t> placed(viewpoints_.size(), 0);  // place in the plan, from 1 on
     std::vector<device::KernelAsk> asks;
+    std::set<device::KernelAsk> asked;
     for (std::size_t bytes = 0; next_ < highlights_.size() && bytes < kBatchBytes; ++next_) {
         const Highlight& h = highlights_[next_];
         bytes += std::size_t(4 * h.coc_px * h.coc_px + 9) * sizeof(float);
@@ -102,11 +104,13 @@ bool LightsPlanner::next(LightsPlan& plan) {
         }
         plan.lights.push_back({h, viewpoint - 1, 0});
         asks.push_back(ask(asked_by_[next_]));
+        if (asked.insert(asks.back()).second) {
+            const double side = 2 * input_.lens.level(0).reach_px(double(h.coc_px)) + 1;
+            bytes += std::size_t(side * side) * sizeof(Rgba);
+        }
     }
-    plan.kernels.asks = asks;
     std::vector<device::KernelAsk>& set = plan.kernels.asks;
-    std::sort(set.begin(), set.end());
-    set.erase(std::unique(set.begin(), set.end()), set.end());
+    set.assign(asked.begin(), asked.end());
     for (std::size_t i = 0; i < asks.size(); ++i)
         plan.lights[i].kernel =
             std::uint32_t(std::lower_bound(set.begin(), set.end(), asks[i]) - set.begin());

@@ -4,6 +4,7 @@
 #include "kernel/lenses/make_lens.h"
 
 #include <algorithm>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -12,10 +13,11 @@ namespace {
 
 class Lamps {
 public:
-    explicit Lamps(Quality quality = Quality::Standard)
+    explicit Lamps(Quality quality = Quality::Standard, const std::string& lens = "ideal")
         : colour_(kWidth, kHeight, Rgba{0.1f, 0.1f, 0.1f, 1}), coc_px_(kWidth, kHeight, 40.0f) {
         LensChoice choice;
-        choice.cats_eye = 0.5;
+        choice.name = lens;
+        if (lens == "ideal") choice.cats_eye = 0.5;
         lenses_.push_back(std::move(kernel::make_lens(choice, {{50, 36, 1.4, 2}, kWidth, kHeight})).value());
         input_.samples.colour = colour_, input_.samples.coc_px = coc_px_, input_.lens.frame = colour_.rect();
         input_.lens.levels = lenses_, input_.options.quality = quality, input_.samples.farthest_coc_px = 40;
@@ -66,6 +68,23 @@ TEST(LightsPlan, EveryAskAndEveryViewpointIsUsed) {
     }
     EXPECT_EQ(std::count(asked.begin(), asked.end(), false), 0);
     EXPECT_EQ(std::count(seen.begin(), seen.end(), false), 0);
+}
+
+TEST(LightsPlan, LampsNearEachOtherShareAKernelWithAWideHalo) {
+    for (const bool wide : {false, true}) {
+        Lamps lamps(Quality::Standard, wide ? "singlet" : "ideal");
+        lamps.add(100, 100, 20.1f, 0.001f);
+        lamps.add(101, 100, 20.3f, 0.001f);
+        EXPECT_EQ(lamps.plans()[0].kernels.asks.size(), wide ? 1U : 2U);
+    }
+}
+
+TEST(LightsPlan, WideHalosMakeBatchesSmall) {
+    for (const bool wide : {false, true}) {
+        Lamps lamps(Quality::Standard, wide ? "singlet" : "ideal");
+        for (int i = 0; i < 1500; ++i) lamps.add(7 * i % 320, 13 * i % 600, 5);
+        EXPECT_EQ(lamps.plans().size() > 1, wide);
+    }
 }
 
 TEST(LightsPlan, PixelsOfOneLampShareAViewpointWhereTheirDiscIsWide) {
