@@ -131,6 +131,17 @@ PETZVAL_API Result<Frame> read_frame(const std::string& path, const ReadOptions&
 // Header only: parts, channels, windows, camera; pixels stay unread.
 PETZVAL_API Result<Frame> read_frame_header(const std::string& path, const ReadOptions& options = {});
 
+// Depth from a separate file, for a picture that a host holds.
+struct DepthOfFile {
+    Plane depth;                        // as Frame::depth
+    bool is_share = false;              // as Frame::depth_is_share
+    std::vector<std::string> detected;  // as Frame::detected
+};
+// Reads options.depth_file, in any format of read_frame(), over the data window of `place`. A map of another
+// size is stretched over the display window: to the nearest value, or as lines between the values of smaller
+// maps of whole numbers. Errors: those of read_frame().
+PETZVAL_API Result<DepthOfFile> read_depth_file(const ReadOptions& options, const Place& place);
+
 // The text attribute of an EXR, or the text of a PNG with that keyword; empty if there is none. Errors:
 // InvalidFile.
 PETZVAL_API Result<std::string> read_text_attribute(const std::string& path, const std::string& name);

@@ -108,39 +108,69 @@ std::string resampled(const Rect& theirs, const Rect& display, bool shares) {
            (std::abs(shape - 1) > 0.02 ? ", of another shape: stretched" : "");
 }
 
-Result<Plane> depth_of_raster(const InputFile& file, const RasterFormat& format, const ReadOptions& options,
-                              Frame& frame) {
+Status take_raster(const InputFile& file, const RasterFormat& format, const ReadOptions& options,
+                   const Place& place, DepthOfFile& into) {
     const Result<Raster> raster = read_raster(file, format, options, sizeof(float));
     if (!raster) return raster.error();
-    frame.depth_is_share = !raster->is_float();
-    const Place& place = frame.place;
-    Plane depth = first_channel(*raster);
+    into.is_share = !raster->is_float();
+    into.depth = first_channel(*raster);
     const bool fits_data = place.fits(raster->width, raster->height);
-    frame.detected.push_back(
+    into.detected.push_back(
         "depth: " + printable(file.path()) + ", " + std::to_string(raster->bits) + " bit" +
         (raster->is_float() ? " float" : " as a share of full scale, never sRGB-decoded") +
-        (fits_data ? "" : resampled(raster->rect(), place.display_window, frame.depth_is_share)));
-    if (fits_data) return depth;
-    return depth_over(place.display_window, depth, frame.depth_is_share, place.data_window);
+        (fits_data ? "" : resampled(raster->rect(), place.display_window, into.is_share)));
+    if (!fits_data)
+        into.depth = depth_over(place.display_window, into.depth, into.is_share, place.data_window);
+    return Done{};
 }
 
-Result<Plane> depth_of_exr(const std::shared_ptr<const InputFile>& file, const ReadOptions& options,
-                           const Place& place, std::vector<std::string>& detected) {
+// Depth of an EXR over `window` of its frame.
+struct DepthOfExr {
+    Plane depth;
+    Rect window, display;
+    std::string line;
+};
+
+// A file of deep samples only: the depth of their front view.
+Result<DepthOfExr> depth_of_samples(const std::shared_ptr<const InputFile>& file, ReadOptions options) {
+    options.depth_file.clear();
+    options.need_colour = false;
+    auto frame = read_exr_frame(file, options, true);
+    if (!frame) return frame.error();
+    return DepthOfExr{std::move(frame->depth), frame->place.data_window, frame->place.display_window,
+                      "depth: front view of the deep samples"};
+}
+
+Result<DepthOfExr> depth_of_exr(const std::shared_ptr<const InputFile>& file, const ReadOptions& options) {
     Result<ExrFile> exr = ExrFile::open(file, options.max_pixels, *options.workers);
     if (!exr) return exr.error();
-    const Rect theirs = exr->layout.display_window, &display = place.display_window;
-    const Result<DepthChoice> choice = choose_depth(file->path(), exr->layout, nullptr, options, false);
+    const auto& parts = exr->layout.parts;
+    if (std::all_of(parts.begin(), parts.end(), [](const Part& part) { return part.deep; }))
+        return depth_of_samples(file, options);
+    const Result<DepthChoice> choice =
+        choose_depth(file->path(), exr->layout, nullptr, options, has_camera_matrix(*exr));
     if (!choice) return choice.error();
-    const std::string other_size = resampled(theirs, display, false);
-    detected.push_back(choice->line + ", in " + printable(file->path()) + other_size);
     Result<Plane> depth = read_depth(*exr, *choice);
     if (!depth) return depth.error();
-    const Rect window = exr->layout.parts[choice->part].data_window;
-    if (!other_size.empty()) {
-        if (window != theirs) *depth = pasted(*depth, window, theirs);
-        return depth_over(display, *depth, false, place.data_window);
-    }
-    return window == place.data_window ? std::move(*depth) : pasted(*depth, window, place.data_window);
+    return DepthOfExr{std::move(*depth), parts[choice->part].data_window, exr->layout.display_window,
+                      choice->line};
+}
+
+Status take_exr(const std::shared_ptr<const InputFile>& file, const ReadOptions& options, const Place& place,
+                DepthOfFile& into) {
+    Result<DepthOfExr> exr = depth_of_exr(file, options);
+    if (!exr) return exr.error();
+    const Rect& display = place.display_window;
+    const std::string other_size = resampled(exr->display, display, false);
+    into.detected.push_back(exr->line + ", in " + printable(file->path()) + other_size);
+    // Display windows lie on each other, wherever they begin.
+    const int right = display.x0 - exr->display.x0, down = display.y0 - exr->display.y0;
+    const Rect window = exr->window.moved(right, down);
+    const Rect covered = other_size.empty() ? place.data_window : exr->display.moved(right, down);
+    if (window != covered) exr->depth = pasted(exr->depth, window, covered);
+    into.depth = other_size.empty() ? std::move(exr->depth)
+                                    : depth_over(display, exr->depth, false, place.data_window);
+    return Done{};
 }
 
 }  // namespace
@@ -153,18 +183,29 @@ Result<Frame> read_frame_header(const std::string& path, const ReadOptions& opti
     return read(path, options, false);
 }
 
-Status read_depth_file(const ReadOptions& options, Frame& frame) {
-    const auto file = InputFile::open_or_wait(options.depth_file, *options.workers, options.max_memory_bytes);
+Result<DepthOfFile> read_depth_file(const ReadOptions& options, const Place& place) {
+    const std::shared_ptr<Workers> workers = workers_of(options.threads, options.workers);
+    ReadOptions with_workers = options;
+    with_workers.workers = workers.get();
+    const auto file = InputFile::open_or_wait(options.depth_file, *workers, options.max_memory_bytes);
     if (!file) return file.error();
-    return guarded(**file, [&]() -> Status {
-        const RasterFormat* const format = raster_format_of(**file);
-        if (!format && !starts_like_exr(**file)) return unknown_format(**file);
-        auto depth = format ? depth_of_raster(**file, *format, options, frame)
-                            : depth_of_exr(*file, options, frame.place, frame.detected);
-        if (!depth) return depth.error();
-        frame.depth = std::move(*depth);
-        return Done{};
+    DepthOfFile read;
+    const Status taken = guarded(**file, [&]() -> Status {
+        if (const RasterFormat* format = raster_format_of(**file))
+            return take_raster(**file, *format, with_workers, place, read);
+        if (!starts_like_exr(**file)) return unknown_format(**file);
+        return take_exr(*file, with_workers, place, read);
     });
+    if (!taken) return taken.error();
+    return read;
+}
+
+Status take_depth_file(const ReadOptions& options, Frame& frame) {
+    auto read = read_depth_file(options, frame.place);
+    if (!read) return read.error();
+    frame.depth = std::move(read->depth), frame.depth_is_share = read->is_share;
+    for (std::string& line : read->detected) frame.detected.push_back(std::move(line));
+    return Done{};
 }
 
 }  // namespace petzval

@@ -1,5 +1,4 @@
 // A mask from a separate file, which limits the effect.
-#include "files/exr/read.h"
 #include "shot/file_of_shot.h"
 
 #include <algorithm>
@@ -67,11 +66,11 @@ Result<Values> one_colour(const Frame& frame, const FileChannel& from) {
 // One channel of an EXR over the frame, read like depth from a separate file.
 Result<Values> one_channel(const FileChannel& from, ReadOptions options, const Place& place) {
     options.depth_file = from.file, options.depth_channel = from.channel;
-    Frame frame;
-    frame.place = place;
-    frame.place.data_window = place.display_window;
-    if (Status read = read_depth_file(options, frame); !read) return read.error();
-    return Values{std::move(frame.depth), place.display_window,
+    Place frame = place;
+    frame.data_window = place.display_window;
+    auto read = read_depth_file(options, frame);
+    if (!read) return read.error();
+    return Values{std::move(read->depth), place.display_window,
                   from.channel.empty() ? "its only channel" : from.channel};
 }
 

@@ -214,10 +214,10 @@ Result<DepthChoice> choose_depth(const std::string& path, const Layout& layout, 
                                  const ReadOptions& options, bool has_camera_matrix) {
     if (!options.depth_channel.empty()) return named_channel(path, layout, colour, options.depth_channel);
     if (auto found = by_pattern(layout, colour)) return *found;
-    if (!colour)
-        if (auto found = of_depth_file(layout)) return *found;
     if (has_camera_matrix)
         if (auto found = by_position(layout, colour)) return *found;
+    if (!colour)
+        if (auto found = of_depth_file(layout)) return *found;
     for (const Part& part : layout.parts)
         for (const Channel& c : part.channels)
             if (last_component(c.layer.empty() ? part.label : c.layer) == "mist")

@@ -175,6 +175,12 @@ Result<Plane> read_depth(const ExrFile& exr, const DepthChoice& choice) {
     return depth;
 }
 
+bool has_camera_matrix(const ExrFile& exr) {
+    bool found = false;
+    for (int p = 0; p < exr.parts->parts(); ++p) found |= Imf::hasWorldToCamera(exr.parts->header(p));
+    return found;
+}
+
 Plane pasted(const Plane& plane, const Rect& from, const Rect& to) {
     Plane out(to.width(), to.height(), std::numeric_limits<float>::infinity());
     const Rect both = from.intersected(to);

@@ -40,6 +40,9 @@ Status read_colour(const ExrFile& exr, const ColourChoice& choice, Picture& colo
 // The chosen depth over its part's data window.
 Result<Plane> read_depth(const ExrFile& exr, const DepthChoice& choice);
 
+// True if a part has worldToCamera, which makes depth of positions.
+bool has_camera_matrix(const ExrFile& exr);
+
 // `plane` covers `from`; returns what of it lies in `to`, +infinity (a miss) where it covers nothing.
 Plane pasted(const Plane& plane, const Rect& from, const Rect& to);
 

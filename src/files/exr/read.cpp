@@ -132,9 +132,8 @@ struct Choices {
 Status choose_depth_of(const ExrFile& exr, const ReadOptions& options, bool pixels, Choices& choices,
                        Frame& frame) {
     if (!options.depth_file.empty()) return Done{};
-    bool camera_matrix = false;
-    for (int p = 0; p < exr.parts->parts(); ++p) camera_matrix |= Imf::hasWorldToCamera(exr.parts->header(p));
-    const auto found = choose_depth(exr.file->path(), exr.layout, &choices.colour, options, camera_matrix);
+    const auto found =
+        choose_depth(exr.file->path(), exr.layout, &choices.colour, options, has_camera_matrix(exr));
     const bool asked = !options.depth_channel.empty();
     if (!found && (asked || (options.need_depth && pixels))) return found.error();
     if (!found) {
@@ -214,7 +213,7 @@ Status read_pixels(const ExrFile& exr, const Choices& choices, const ReadOptions
                                                         : pasted(*depth, window, frame.place.data_window);
     }
     if (!options.depth_file.empty())
-        if (Status s = read_depth_file(options, frame); !s) return s;
+        if (Status s = take_depth_file(options, frame); !s) return s;
     return read_motion(exr, choices.colour, options, frame);
 }
 

@@ -14,8 +14,7 @@ namespace petzval {
 Result<Frame> read_exr_frame(const std::shared_ptr<const InputFile>& file, const ReadOptions& options,
                              bool pixels);
 
-// frame.depth from another file, EXR or PNG of any size, in the colour's data window. Adds a line to
-// frame.detected.
-Status read_depth_file(const ReadOptions& options, Frame& frame);
+// frame.depth from options.depth_file, as read_depth_file() reads it. Adds lines to frame.detected.
+Status take_depth_file(const ReadOptions& options, Frame& frame);
 
 }  // namespace petzval

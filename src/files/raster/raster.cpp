@@ -143,7 +143,7 @@ Result<Frame> read_raster_frame(const std::shared_ptr<const InputFile>& file, co
     frame.colour = raster->is_float() ? light_of_floats(*raster, frame.non_finite_colour)
                                       : light_of_codes(*raster, options.transfer);
     if (!options.depth_file.empty())
-        if (Status s = read_depth_file(options, frame); !s) return s.error();
+        if (Status s = take_depth_file(options, frame); !s) return s.error();
     return frame;
 }
 
