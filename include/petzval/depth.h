@@ -77,6 +77,15 @@ PETZVAL_API float join_depth_codes(Plane& depth, const DepthSettings& settings, 
 PETZVAL_API Result<DepthReport> depth_to_planar_metres(View<float> depth, const Place& place,
                                                        const DepthSettings& settings);
 
+// Rewrites a channel of kind CocPx in place as signed radii in pixels: with a range, 0…1 stand for its two
+// radii. A radius that is not finite becomes 0 (sharp), with one warning. Errors: InvalidArgument for a range
+// of equal or infinite radii.
+PETZVAL_API Result<DepthReport> depth_to_radii_px(View<float> depth, const DepthSettings& settings);
+
+// Checks that depth of whole numbers (Frame::depth_is_share) has a meaning. Errors: InvalidArgument for radii
+// without a range, and for planar distances unless `kind_given` states that a user chose them.
+PETZVAL_API Status check_depth_codes(const DepthSettings& settings, bool kind_given);
+
 // The same for both depths of every deep sample; samples stay nearest first. Each sample counts as a pixel
 // does.
 PETZVAL_API Result<DepthReport> deep_to_planar_metres(DeepPicture& deep, const Place& place,

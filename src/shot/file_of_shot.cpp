@@ -2,37 +2,11 @@
 
 #include "petzval/depth.h"
 
-#include <cmath>
 #include <cstdio>
 #include <utility>
 
 namespace petzval::shot {
 namespace {
-
-// Radii of 0…1 between the ends of a range.
-Status between_ends(View<float> radii, const DepthSettings& settings) {
-    if (!settings.range_near || !settings.range_far) return Done{};
-    const double near = *settings.range_near, far = *settings.range_far;
-    if (!std::isfinite(near) || !std::isfinite(far) || near == far)
-        return Error{ErrorCode::InvalidArgument,
-                     "depth.range of depth.kind coc-px needs two different radii in pixels", "depth.range"};
-    for (int y = 0; y < radii.height(); ++y)
-        for (int x = 0; x < radii.width(); ++x)
-            radii(x, y) = float(near + double(radii(x, y)) * (far - near));
-    return Done{};
-}
-
-// Radii as they are; what is not a number is sharp.
-DepthReport check_radii(View<float> radii) {
-    DepthReport report;
-    for (int y = 0; y < radii.height(); ++y)
-        for (int x = 0; x < radii.width(); ++x)
-            if (!std::isfinite(radii(x, y))) radii(x, y) = 0, ++report.non_finite;
-    if (report.non_finite > 0)
-        report.warnings.push_back(std::to_string(report.non_finite) +
-                                  " radii of the depth channel are not finite and count as 0 (sharp)");
-    return report;
-}
 
 // Steps of one code are not edges.
 void join_codes(Frame& frame, const DepthSettings& settings) {
@@ -49,10 +23,7 @@ void join_codes(Frame& frame, const DepthSettings& settings) {
 
 Result<DepthReport> make_depth(Frame& frame, const DepthSettings& settings) {
     join_codes(frame, settings);
-    if (settings.kind == DepthKind::CocPx) {
-        if (const Status fine = between_ends(frame.depth.view(), settings); !fine) return fine.error();
-        return check_radii(frame.depth.view());
-    }
+    if (settings.kind == DepthKind::CocPx) return depth_to_radii_px(frame.depth.view(), settings);
     if (frame.depth.empty()) return DepthReport{};
     auto report = depth_to_planar_metres(frame.depth.view(), frame.place, settings);
     if (!report || frame.deep.empty()) return report;

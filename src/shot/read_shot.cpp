@@ -65,24 +65,13 @@ Status read_given_lights(Reading& r) {
     return Done{};
 }
 
-// Errors: InvalidArgument for whole numbers, which hold no metres, unless a user said what they mean.
+// Errors: those of check_depth_codes(), with the path.
 Status check_meaning(const ShotSource& source, const Frame& frame) {
-    const bool has_ends = source.depth.range_near && source.depth.range_far;
-    if (frame.depth_is_share && source.depth.kind == DepthKind::CocPx && !has_ends)
-        return Error{ErrorCode::InvalidArgument,
-                     source.read.depth_file +
-                         ": integer pixels hold no radii in pixels; set depth.range to the radii of black "
-                         "and white, in "
-                         "pixels, negative in front of focus",
-                     "depth.range"};
-    if (!frame.depth_is_share || source.depth_kind_given || source.depth.kind != DepthKind::Planar)
-        return Done{};
-    return Error{
-        ErrorCode::InvalidArgument,
-        source.read.depth_file +
-            ": integer pixels are not distances in metres; set their meaning, such as depth.kind inverse "
-            "depth.range 1,inf (white is near) or depth.kind normalized depth.range 0.5,20 (black is near)",
-        "depth.kind"};
+    if (!frame.depth_is_share) return Done{};
+    const Status fine = check_depth_codes(source.depth, source.depth_kind_given);
+    if (fine) return fine;
+    const Error& error = fine.error();
+    return Error{error.code, source.read.depth_file + ": " + error.message, error.field};
 }
 
 // Advises if depth read as metres is implausible.
