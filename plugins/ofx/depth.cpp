@@ -3,6 +3,7 @@
 #include "petzval/depth.h"
 #include "petzval/files.h"
 #include "petzval/frames.h"
+#include "petzval/place.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,12 +19,16 @@ Error refused(std::string why) { return {ErrorCode::InvalidArgument, std::move(w
 
 // One value for each pixel of `source`, top row first.
 template <typename At>
-std::vector<float> plane_like(const LentImage& source, const At& at) {
-    std::vector<float> values;
-    values.reserve(std::size_t(source.width()) * std::size_t(source.height()));
-    for (int y = source.bounds().y2 - 1; y >= source.bounds().y1; --y)
-        for (int x = source.bounds().x1; x < source.bounds().x2; ++x) values.push_back(at(x, y));
-    return values;
+Plane plane_like(const LentImage& source, const At& at) {
+    Plane plane = Plane::uninitialised(source.width(), source.height());
+    const int left = source.bounds().x1, top = source.bounds().y2 - 1;
+    for (int y = 0; y < plane.height(); ++y)
+        for (int x = 0; x < plane.width(); ++x) plane(x, y) = at(left + x, top - y);
+    return plane;
+}
+
+Place place_of(const DepthQuestion& q) {
+    return {q.frame->rect(q.frame->display), q.frame->rect(q.source->bounds()), q.frame->pixel_aspect};
 }
 
 DepthSettings settings_of(const Values& v) {
@@ -32,9 +37,10 @@ DepthSettings settings_of(const Values& v) {
     settings.unit_scale_m = v.depth_unit_m;
     settings.focal_length_mm = v.focal_length_mm;
     settings.sensor_width_mm = v.sensor_width_mm;
-    const bool may_begin_at_0 = v.depth_kind == DepthKind::Normalized || is_mist(v.depth_kind);
-    if (v.depth_near > 0 || (may_begin_at_0 && v.depth_far > 0)) settings.range_near = v.depth_near;
-    if (v.depth_far > 0) settings.range_far = v.depth_far;
+    const bool radii = v.depth_kind == DepthKind::CocPx;
+    const bool may_begin_at_0 = radii || v.depth_kind == DepthKind::Normalized || is_mist(v.depth_kind);
+    if (v.depth_near != 0 || (may_begin_at_0 && v.depth_far != 0)) settings.range_near = v.depth_near;
+    if (v.depth_far != 0 || (radii && v.depth_near != 0)) settings.range_far = v.depth_far;
     return settings;
 }
 
@@ -52,51 +58,46 @@ bool is_in_alpha(const LentImage& depth) {
     return other_than_coverage;
 }
 
-Result<std::vector<float>> of_clip(const DepthQuestion& q, const char* clip) {
+// Values as rendered.
+struct Stored {
+    Plane depth;
+    bool is_share = false;  // of whole numbers
+};
+
+Result<Stored> of_clip(const DepthQuestion& q, const char* clip) {
     const LentImage depth(q.effect, clip, q.time);
     if (!depth.is_there()) return refused(std::string("the clip ") + clip + " has no image at this frame");
     if (!depth.is_readable()) return refused(std::string("the clip ") + clip + " is not of float pixels");
     const int channel = is_in_alpha(depth) ? 3 : 0;
-    Plane plane(q.source->width(), q.source->height());
-    std::vector<float> values =
-        plane_like(*q.source, [&](int x, int y) { return depth.value(x, y, channel, kMiss); });
-    std::copy(values.begin(), values.end(), &plane(0, 0));
-    if (join_depth_codes(plane, settings_of(*q.values), false) > 0)
-        std::copy_n(&plane(0, 0), values.size(), values.begin());
-    return values;
+    return Stored{plane_like(*q.source, [&](int x, int y) { return depth.value(x, y, channel, kMiss); })};
 }
 
-Result<std::vector<float>> of_file(const DepthQuestion& q) {
+// Errors: those of read_depth_file() and check_depth_codes(). A unit of its own shows that a user chose
+// planar depth, which is the menu's default.
+Result<Stored> of_file(const DepthQuestion& q) {
     const Values& v = *q.values;
     if (v.depth_file.empty()) return refused("Depth from is 'file', but Depth file is empty");
-    ReadOptions options;
-    options.need_colour = false;
-    options.depth_channel = v.depth_channel;
     const double frame_number = std::clamp(std::floor(q.time + v.depth_frame_offset), -1e9, 2e9);
-    const std::string path = at_frame(v.depth_file, int(frame_number));
-    auto file = read_frame(path, options);
+    ReadOptions options;
+    options.depth_file = at_frame(v.depth_file, int(frame_number));
+    options.depth_channel = v.depth_channel;
+    auto file = read_depth_file(options, place_of(q));
     if (!file) return file.error();
-    if (file->deep.empty()) join_depth_codes(file->depth, settings_of(v), file->depth_is_share);
-    // The file covers the frame at full size; each pixel of the host takes the pixel under its centre.
-    const petzval::Rect &whole = file->place.display_window, &data = file->place.data_window;
-    const ofx::RectI& frame = q.frame->display;
-    const double across = double(whole.width()) / (frame.x2 - frame.x1);
-    const double down = double(whole.height()) / (frame.y2 - frame.y1);
-    return plane_like(*q.source, [&](int x, int y) {
-        const int column = whole.x0 + int(std::floor((x + 0.5 - frame.x1) * across)) - data.x0;
-        const int row = whole.y0 + int(std::floor((frame.y2 - y - 0.5) * down)) - data.y0;
-        return file->depth.view().rect().contains(column, row) ? file->depth(column, row) : kMiss;
-    });
+    if (file->is_share)
+        if (const Status fine = check_depth_codes(settings_of(v), v.depth_unit_m != 1); !fine)
+            return refused(options.depth_file + ": " + fine.error().message);
+    return Stored{std::move(file->depth), file->is_share};
 }
 
-Result<std::vector<float>> stored_depth(const DepthQuestion& q) {
+Result<Stored> stored_depth(const DepthQuestion& q) {
     switch (q.values->depth_from) {
         case DepthFrom::Clip:
             return of_clip(q, kDepthClip);
         case DepthFrom::File:
             return of_file(q);
         case DepthFrom::Alpha:
-            return plane_like(*q.source, [&](int x, int y) { return q.source->value(x, y, 3, kMiss); });
+            return Stored{
+                plane_like(*q.source, [&](int x, int y) { return q.source->value(x, y, 3, kMiss); })};
         case DepthFrom::Auto:
             break;
     }
@@ -105,18 +106,18 @@ Result<std::vector<float>> stored_depth(const DepthQuestion& q) {
     return refused("no depth: connect the clip Depth, give a Depth file, or take alpha as depth");
 }
 
-Result<DepthOfFrame> in_metres(const DepthQuestion& q, std::vector<float> stored) {
-    const Values& v = *q.values;
-    if (v.depth_kind == DepthKind::CocPx) {
-        for (float& radius : stored) radius = float(radius * q.scale.x);
-        return DepthOfFrame{std::move(stored), true};
-    }
-    const Place place{q.frame->rect({q.frame->display}), q.frame->rect(q.source->bounds()),
-                      q.frame->pixel_aspect};
-    const View<float> plane(stored.data(), q.source->width(), q.source->height(), q.source->width());
-    const auto done = depth_to_planar_metres(plane, place, settings_of(v));
+Result<DepthOfFrame> in_metres_or_radii(const DepthQuestion& q, Stored stored) {
+    const DepthSettings settings = settings_of(*q.values);
+    Plane& depth = stored.depth;
+    join_depth_codes(depth, settings, stored.is_share);
+    const bool radii = settings.kind == DepthKind::CocPx;
+    const auto done = radii ? depth_to_radii_px(depth.view(), settings)
+                            : depth_to_planar_metres(depth.view(), place_of(q), settings);
     if (!done) return done.error();
-    return DepthOfFrame{std::move(stored), false};
+    if (radii)  // of the frame at full size
+        for (std::size_t i = 0; i < depth.size(); ++i)
+            depth.pixels()[i] = float(depth.pixels()[i] * q.scale.x);
+    return DepthOfFrame{std::move(depth), radii};
 }
 
 }  // namespace
@@ -124,16 +125,16 @@ Result<DepthOfFrame> in_metres(const DepthQuestion& q, std::vector<float> stored
 Result<DepthOfFrame> depth_of(const DepthQuestion& question) {
     auto stored = stored_depth(question);
     if (!stored) return stored.error();
-    return in_metres(question, std::move(*stored));
+    return in_metres_or_radii(question, std::move(*stored));
 }
 
 Result<DepthOfFrame> plate_depth_of(const DepthQuestion& question) {
     auto stored = of_clip(question, kPlateDepthClip);
     if (!stored) return stored.error();
-    return in_metres(question, std::move(*stored));
+    return in_metres_or_radii(question, std::move(*stored));
 }
 
-std::vector<float> mask_of(const DepthQuestion& q) {
+Plane mask_of(const DepthQuestion& q) {
     if (!is_connected(q.effect, kMaskClip)) return {};
     const LentImage mask(q.effect, kMaskClip, q.time);
     if (!mask.is_readable()) return {};

@@ -1,12 +1,11 @@
 // Depth of a frame: from a clip, a file or alpha, as planar metres.
 #pragma once
 
+#include "petzval/image.h"
 #include "petzval/result.h"
 
 #include "images.h"
 #include "params.h"
-
-#include <vector>
 
 namespace petzval::plugin {
 
@@ -18,7 +17,7 @@ inline constexpr const char* kMaskClip = "Mask";
 
 // One value for each pixel of Source, top row first: metres, or radii in pixels.
 struct DepthOfFrame {
-    std::vector<float> values;
+    Plane values;
     bool are_radii = false;
 };
 
@@ -31,11 +30,12 @@ struct DepthQuestion {
     ofx::Point scale;
 };
 
-// Errors: InvalidArgument where nothing gives depth, or the range of the kind is missing; InvalidFile.
+// Errors: InvalidArgument where nothing gives depth, or the range of the kind is missing; InvalidFile. They
+// name fields of the library (in_labels()).
 Result<DepthOfFrame> depth_of(const DepthQuestion& question);
 // Depth of the clip PlateDepth by the same kind and unit.
 Result<DepthOfFrame> plate_depth_of(const DepthQuestion& question);
 // A share for each pixel of Source, 0 beyond the mask; empty where no mask is connected.
-std::vector<float> mask_of(const DepthQuestion& question);
+Plane mask_of(const DepthQuestion& question);
 
 }  // namespace petzval::plugin

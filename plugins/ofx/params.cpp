@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace petzval::plugin {
 namespace {
@@ -32,11 +33,13 @@ constexpr std::array kNumbers{
     Number{
         "depthNear", "Depth range: near",
         "Near end of the range, for depth kinds with a range, in units of the scene. 0: none; for normalized "
-        "and mist, the camera.",
-        "depth", &Values::depth_near, 0, 0, kHuge, 0, 10},
-    Number{"depthFar", "Depth range: far",
-           "Far end of the range, for depth kinds with a range, in units of the scene; 0: none.", "depth",
-           &Values::depth_far, 0, 0, kHuge, 0, 100},
+        "and mist, the camera. For coc-px the radius of 0, in pixels.",
+        "depth", &Values::depth_near, 0, -kHuge, kHuge, 0, 10},
+    Number{
+        "depthFar", "Depth range: far",
+        "Far end of the range, for depth kinds with a range, in units of the scene; 0: none. For coc-px the "
+        "radius of 1, in pixels.",
+        "depth", &Values::depth_far, 0, -kHuge, kHuge, 0, 100},
     Number{"depthFrameOffset", "Depth frame offset",
            "Added to the host's frame number where Depth file has '#': 1001 if frame 0 is depth.1001.exr.",
            "depth", &Values::depth_frame_offset, 0, -kHuge, kHuge, 0, 1001},
@@ -48,8 +51,9 @@ struct Text {
     bool is_file;
 };
 constexpr std::array kTexts{
-    Text{"depthFile", "Depth file", "EXR with depth; '#' stands for digits of the frame: depth.####.exr.",
-         "depth", &Values::depth_file, true},
+    Text{"depthFile", "Depth file",
+         "EXR, PNG or TIFF with depth; '#' stands for digits of the frame: depth.####.exr.", "depth",
+         &Values::depth_file, true},
     Text{"depthChannel", "Depth channel",
          "Channel of the depth file, such as Z; if empty, it is found by its name.", "depth",
          &Values::depth_channel, false},
@@ -264,6 +268,26 @@ Values values_at(ofx::Effect* instance, ofx::Time time) {
     for (const Writer& writer : kWriters)
         if ((v.*writer.value).empty()) v.*writer.value = chosen_word(instance, writer, time);
     return v;
+}
+
+std::string in_labels(std::string message) {
+    static constexpr std::pair<std::string_view, std::string_view> kWords[] = {
+        {"name one with read.depth_channel or a file with read.depth_file", "name one in Depth channel"},
+        {"read.depth_channel", "Depth channel"},
+        {"depth.kind", "Depth kind"},
+        {"depth.range", "Depth range"},
+        {"depth.unit_scale_m", "Metres per unit"},
+        {"camera.focal_length_mm", "Focal length"},
+        {"camera.sensor_width_mm", "Sensor width"},
+        {"camera.f_number", "f-stop"},
+        {"camera.focus_distance_m", "Focus distance"},
+        {"job.engine", "Engine"},
+        {"lens.name", "Lens"}};
+    for (const auto& [field, label] : kWords)
+        for (std::size_t at = message.find(field); at != std::string::npos;
+             at = message.find(field, at + label.size()))
+            message.replace(at, field.size(), label);
+    return message;
 }
 
 bool take_word_of_menu(ofx::Effect* instance, std::string_view menu, ofx::Time time) {

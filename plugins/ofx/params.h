@@ -52,6 +52,9 @@ Values values_at(ofx::Effect* instance, ofx::Time time);
 // is empty, in hosts that report no changes. False, and nothing happens, for other names.
 bool take_word_of_menu(ofx::Effect* instance, std::string_view menu, ofx::Time time);
 
+// The library's messages name fields, as depth.kind; hosts show labels of parameters.
+std::string in_labels(std::string message);
+
 ofx::Param* param_of(ofx::Effect* instance, const char* name);
 
 }  // namespace petzval::plugin

@@ -99,7 +99,8 @@ petzval_rect lent(const Rect& r) { return {r.x0, r.y0, r.x1, r.y1}; }
 
 // Memory of one frame.
 struct Scene {
-    std::vector<float> rgba, mask_values, plate_rgba;
+    std::vector<float> rgba, plate_rgba;
+    Plane mask_values;
     DepthOfFrame depth;
     std::vector<std::uint64_t> first;
     std::vector<petzval_deep_sample> samples;
@@ -110,14 +111,14 @@ struct Scene {
     petzval_shot shot{};
 };
 
-petzval_plane plane_of(std::vector<float>& values, const LentImage& like) {
+petzval_plane plane_of(Plane& values) {
     petzval_plane plane{};
     plane.size = sizeof plane;
-    plane.width = like.width();
-    plane.height = like.height();
-    plane.data = values.data();
+    plane.width = values.width();
+    plane.height = values.height();
+    plane.data = values.pixels();
     plane.pixel_stride = sizeof(float);
-    plane.row_stride = plane.pixel_stride * like.width();
+    plane.row_stride = plane.pixel_stride * values.width();
     return plane;
 }
 
@@ -139,7 +140,7 @@ Status take_plate(const DepthQuestion& q, Scene& scene) {
             float c[4];
             for (int i = 0; i < 4; ++i) c[i] = plate.value(x, y, i, 0);
             coding.to_light(c);
-            const float at = depth->values[pixel++];
+            const float at = depth->values.pixels()[pixel++];
             if (c[0] != 0 || c[1] != 0 || c[2] != 0 || c[3] != 0)
                 scene.samples.push_back({c[0], c[1], c[2], c[3], at, at});
             scene.first.push_back(scene.samples.size());
@@ -166,8 +167,7 @@ Result<double> depth_at_point(const DepthQuestion& q, const DepthOfFrame& depth)
     if (depth.are_radii) return refused("Focus on 'point' needs depth, not radii");
     if (x < bounds.x1 || x >= bounds.x2 || y < bounds.y1 || y >= bounds.y2)
         return refused("the focus point is outside Source");
-    const std::size_t row = std::size_t(bounds.y2 - 1 - y);
-    const double metres = depth.values[row * std::size_t(q.source->width()) + std::size_t(x - bounds.x1)];
+    const double metres = depth.values(x - bounds.x1, bounds.y2 - 1 - y);
     if (!std::isfinite(metres)) return refused("the picture has no depth at the focus point");
     return metres;
 }
@@ -208,11 +208,11 @@ Status take_scene(const Job& job, const Values& values, const FrameOfHost& frame
     petzval_shot& shot = scene.shot;
     shot.size = sizeof shot;
     scene.depth = std::move(*depth);
-    scene.depth_plane = plane_of(scene.depth.values, *job.source);
+    scene.depth_plane = plane_of(scene.depth.values);
     (scene.depth.are_radii ? shot.radii_px : shot.depth_m) = &scene.depth_plane;
     scene.mask_values = mask_of(question);
     if (!scene.mask_values.empty()) {
-        scene.mask = plane_of(scene.mask_values, *job.source);
+        scene.mask = plane_of(scene.mask_values);
         shot.mask = &scene.mask;
     }
     shot.display_window = lent(frame.rect(frame.display));
@@ -231,7 +231,7 @@ int status_of(petzval_status status) {
 // The blurred pixels of `part`, written into the output.
 int make_part(const Job& job, const ofx::RectI& part) {
     const auto failed = [&](const std::string& why, int status) {
-        show_error(job.effect, why);
+        show_error(job.effect, in_labels(why));
         return status;
     };
     const Values values = values_at(job.effect, job.time);

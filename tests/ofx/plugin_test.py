@@ -148,7 +148,8 @@ class Plugin(unittest.TestCase):
     def same_depth(self, name, params, flags, *clips):
         """The plug-in and the command line read the same depth of a file."""
         self.render("host.exr", {**PARAMS, "focusDistance": 4.8, **params}, "--clip", "Source=sharp.exr", *clips)
-        self.command(PETZVAL, "defocus", "sharp.exr", "--depth", name, "-o", "line.exr", *CAMERA, "--focus", "4.8m", *flags, "--overwrite")
+        camera = [] if "coc-px" in flags else [*CAMERA, "--focus", "4.8m"]
+        self.command(PETZVAL, "defocus", "sharp.exr", "--depth", name, "-o", "line.exr", *camera, *flags, "--overwrite")
         report = json.loads(self.command(PETZVAL, "compare", "line.exr", "host.exr", "--json", "-").stdout)
         self.assertEqual(report["max_error"], 0, (name, params, report))
 
@@ -168,6 +169,42 @@ class Plugin(unittest.TestCase):
         for kind in ("normalized", "mist-linear"):
             self.same_depth("shares.exr", {"depthFile": "shares.exr", "depthKind": kind, "depthFar": 25.5},
                             ["--depth-kind", kind, "--depth-range", "0,25.5"])
+
+    def write_shares(self):
+        """The scene's depth as shares of 25.5 m: floats in shares.exr, whole numbers in shares.png and half.png, of half the size."""
+        shares = self.depth_of(lambda z, y: min(z, 25.5) / 25.5)
+        self.write_depth("shares.exr", shares)
+        for name, rows in (("shares", shares), ("half", [row[1::2] for row in shares[1::2]])):
+            codes = [[round(share * 65535) for share in row] for row in rows]
+            pictures.write_png(f"{self.folder}/{name}.png", codes, channels=1, bits=16)
+
+    def test_a_depth_file_may_be_any_picture_that_the_command_line_takes(self):
+        self.write_shares()
+        for kind, end in (("normalized", 25.5), ("mist-linear", 20)):
+            self.same_depth("shares.png", {"depthFile": "shares.png", "depthKind": kind, "depthFar": end},
+                            ["--depth-kind", kind, "--depth-range", f"0,{end}"])
+        self.same_depth("shares.png", {"depthFile": "shares.png", "depthUnit": 25.5}, ["--depth-kind", "planar", "--unit-scale", "25.5"])
+
+    def test_a_depth_file_of_another_size_is_stretched_as_on_the_command_line(self):
+        self.write_shares()
+        self.same_depth("half.png", {"depthFile": "half.png", "depthKind": "normalized", "depthFar": 25.5},
+                        ["--depth-kind", "normalized", "--depth-range", "0,25.5"])
+        depth = self.depth_of(lambda z, y: z)
+        pictures.write_exr(f"{self.folder}/half.exr", {"Z": [row[::2] for row in depth[::2]]})
+        self.same_depth("half.exr", {"depthFile": "half.exr"}, [])
+
+    def test_radii_of_a_range_are_those_of_the_command_line(self):
+        self.write_shares()
+        flags = ["--depth-kind", "coc-px", "--depth-range=-6,12"]
+        radii = {"depthKind": "coc-px", "depthNear": -6, "depthFar": 12}
+        self.same_depth("shares.exr", radii, flags, "--clip", "Depth=shares.exr:Z")
+        for name in ("shares.exr", "shares.png"):
+            self.same_depth(name, {**radii, "depthFile": name}, flags)
+        self.same_depth("shares.exr", {**radii, "depthNear": 0, "depthFile": "shares.exr"}, ["--depth-kind", "coc-px", "--depth-range", "0,12"])
+
+    def test_radii_that_are_missing_are_sharp(self):
+        self.write_depth("holes.exr", self.depth_of(lambda z, y: float("inf") if y < 20 else 6))
+        self.same_depth("holes.exr", {"depthKind": "coc-px"}, ["--depth-kind", "coc-px"], "--clip", "Depth=holes.exr:Z")
 
     def test_depth_may_lie_in_the_alpha_of_its_clip(self):
         depth, black = self.depth_of(lambda z, y: z), pictures.plane(160, 90, lambda x, y: 0)
@@ -199,9 +236,17 @@ class Plugin(unittest.TestCase):
         self.same({"focusDistance": 4.8, "look": f"lens=1.{link}"}, ["--focus", "4.8m", "--lens", own, "--blades", "6"])
 
     def test_each_error_is_one_sentence_in_the_hosts_message(self):
+        self.write_shares()
+        pictures.write_exr(f"{self.folder}/no-depth.exr", {c: pictures.plane(4, 4, 1) for c in "AB"})
         for params, clips, says in (
                 ({}, self.CLIPS[:2], "no depth"),
                 ({"depthFrom": "file", "depthFile": "none.exr"}, self.CLIPS, "none.exr"),
+                ({"depthFrom": "file", "depthFile": "shares.png"}, self.CLIPS,
+                 "shares.png: integer pixels are not distances in metres; set their meaning, such as Depth kind"),
+                ({"depthFrom": "file", "depthFile": "shares.png", "depthKind": "coc-px"}, self.CLIPS, "set Depth range to the radii"),
+                ({"depthFrom": "file", "depthFile": "shares.exr", "depthChannel": "Q"}, self.CLIPS, "'Q'"),
+                ({"depthFrom": "file", "depthFile": "no-depth.exr"}, self.CLIPS, "name one in Depth channel"),
+                ({"depthKind": "coc-px", "depthNear": 3, "depthFar": 3}, self.CLIPS, "Depth range of Depth kind coc-px needs two"),
                 ({"lens": "no-lens"}, self.CLIPS, "no-lens"),
                 ({"look": "{"}, self.CLIPS, "Look: is not JSON"),
                 ({"look": "https://x.org/#lens=1.!!"}, self.CLIPS, "link"),
