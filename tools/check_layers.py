@@ -52,7 +52,7 @@ ALLOWED = {
     "sequence": PIXELS | {"optics", "depth", "colour", "names", "records", "views", "engine/waist", "lens_facts", "look", "session", "shot", "files"},
     "lens_facts": LENS,
     "farm": {"base", "files", "records", "sequence"},
-    "c": PIXELS | {"colour", "kernel/lenses", "device/vulkan", "lens_facts", "look", "names", "session", "session/rendered"},
+    "c": PIXELS | {"colour", "depth", "kernel/lenses", "device/vulkan", "lens_facts", "look", "names", "session", "session/rendered"},
     "c/files": PIXELS | {"c", "names", "records", "scene", "session", "sequence", "shot", "files"},
     "session/rendered": PIXELS | {"laws", "optics", "depth", "engine/waist", "engine/samples"},
     "session": WAIST | ENGINES | {"session/rendered", "device/cpu", "device/vulkan", "device/webgl", "depth", "views", "look", "glare"},

@@ -202,6 +202,15 @@ typedef struct petzval_layer {
     const petzval_pixels* out; /* receives the result, in the size of the frame; null: dropped */
 } petzval_layer;
 
+/* What the values of a renderer's depth mean: read by the rules of `petzval defocus`
+ * (docs/reference/files.md), also for missing, negative and quantised depth. */
+typedef struct petzval_depth_meaning {
+    size_t size;
+    const char* kind;    /* as --depth-kind, such as "ray"; null: "planar" */
+    double unit_m;       /* metres per unit of depth; 0: 1 */
+    const double* range; /* two numbers, as --depth-range; null: none */
+} petzval_depth_meaning;
+
 /* The rendered input. It is only read. */
 typedef struct petzval_shot {
     size_t size;
@@ -224,6 +233,9 @@ typedef struct petzval_shot {
     const petzval_plane* mask;
     const petzval_layer* const* layers; /* more pictures to blur; layer_count pointers */
     uint64_t layer_count;
+    /* Meaning of depth_m where it is not planar metres; with kind "coc-px" it holds radii. Null: planar
+     * metres. deep, behind and holdout are in metres or radii in any case. */
+    const petzval_depth_meaning* depth_meaning;
 } petzval_shot;
 
 /* --- A frame

@@ -34,6 +34,7 @@ typedef struct petzval_shot_source {
     const petzval_camera* camera; /* numbers other than 0 override those of the file; may be null */
     int threads;                  /* 0: all that this process may use */
     uint64_t max_memory_bytes;    /* limit of the pixels; 0: none */
+    const double* depth_range;    /* two numbers, as --depth-range; null: none */
 } petzval_shot_source;
 
 /* A shot in memory of this library. */

@@ -2,7 +2,6 @@
  * Operation) and in the program gegl. What cannot be made is a warning of GLib, and the input passes
  * unchanged. */
 #include <gegl-plugin.h>
-#include <math.h>
 #include <petzval/petzval_c.h>
 
 typedef struct {
@@ -130,19 +129,6 @@ static petzval_status look_of(const Defocus* self, petzval_look** look) {
     return status;
 }
 
-/* Depth in metres by the rules of docs/reference/files.md. What renderers write where nothing was hit becomes
- * infinity: 0, 1e10, and 65504 in half floats. Some renderers count all depth downwards from 0. */
-static void to_metres(float* depth, size_t count, double unit) {
-    gboolean positive = FALSE;
-    for (size_t i = 0; i < count && !positive; ++i)
-        positive = isfinite(depth[i]) && depth[i] > 0 && depth[i] < 1e10f && depth[i] != 65504;
-    for (size_t i = 0; i < count; ++i) {
-        const float stored = positive ? depth[i] : -depth[i];
-        const gboolean miss = !isfinite(stored) || !(stored > 0) || stored >= 1e10f || stored == 65504;
-        depth[i] = miss ? INFINITY : (float)(stored * unit);
-    }
-}
-
 /* petzval_defocus() writes through the pointers: NOLINTNEXTLINE(readability-non-const-parameter) */
 static petzval_status make(const Defocus* self, float* rgba, float* depth, int width, int height) {
     const double* n = self->numbers;
@@ -151,11 +137,12 @@ static petzval_status make(const Defocus* self, float* rgba, float* depth, int w
     petzval_pixels light = {sizeof light, width, height, PETZVAL_FLOAT, rgba, rgba + 1, rgba + 2,
                             rgba + 3,     16,    0};
     petzval_plane plane = {sizeof plane, width, height, PETZVAL_FLOAT, depth, 4, (ptrdiff_t)width * 4};
+    const petzval_depth_meaning meaning = {.size = sizeof meaning, .unit_m = n[DEPTH_UNIT]};
     petzval_look* look = NULL;
     petzval_shot shot = {.size = sizeof shot};
     petzval_status status = look_of(self, &look);
     light.row_stride = (ptrdiff_t)width * 16;
-    shot.colour = &light, shot.depth_m = &plane, shot.camera = &camera;
+    shot.colour = &light, shot.depth_m = &plane, shot.depth_meaning = &meaning, shot.camera = &camera;
     if (!status && !session()) status = PETZVAL_INTERNAL;
     if (!status) status = petzval_defocus(session(), &shot, look, NULL, &light, NULL);
     petzval_look_close(look);
@@ -180,7 +167,6 @@ static gboolean process(GeglOperation* operation, GeglBuffer* input, GeglBuffer*
     } else {
         gegl_buffer_get(input, &all, 1, light, rgba, GEGL_AUTO_ROWSTRIDE, GEGL_ABYSS_NONE);
         gegl_buffer_get(aux, &all, 1, babl_format("Y float"), depth, GEGL_AUTO_ROWSTRIDE, GEGL_ABYSS_NONE);
-        to_metres(depth, count, self_of(operation)->numbers[DEPTH_UNIT]);
         if (make(self_of(operation), rgba, depth, all.width, all.height)) {
             g_warning("petzval:defocus: %s", petzval_error_text());
             gegl_buffer_get(input, &all, 1, light, rgba, GEGL_AUTO_ROWSTRIDE, GEGL_ABYSS_NONE);

@@ -165,6 +165,15 @@ class petzval_layer(Structure):
     ]
 
 
+class petzval_depth_meaning(Structure):
+    _fields_ = [
+        ("size", c_size_t),
+        ("kind", c_char_p),
+        ("unit_m", c_double),
+        ("range", POINTER(c_double)),
+    ]
+
+
 class petzval_shot(Structure):
     _fields_ = [
         ("size", c_size_t),
@@ -183,6 +192,7 @@ class petzval_shot(Structure):
         ("mask", POINTER(petzval_plane)),
         ("layers", POINTER(POINTER(petzval_layer))),
         ("layer_count", c_uint64),
+        ("depth_meaning", POINTER(petzval_depth_meaning)),
     ]
 
 
@@ -274,6 +284,7 @@ class petzval_shot_source(Structure):
         ("camera", POINTER(petzval_camera)),
         ("threads", c_int),
         ("max_memory_bytes", c_uint64),
+        ("depth_range", POINTER(c_double)),
     ]
 
 

@@ -86,9 +86,9 @@ def names(function: str) -> list[str]:
         found.append(name.decode())
 
 
-def struct(kind, **members):
+def struct(struct_type, **members):
     """A struct of the API with its size set, everything else 0."""
-    value = kind(**members)
-    if kind._fields_[0][0] == "size":
-        value.size = ctypes.sizeof(kind)
+    value = struct_type(**members)
+    if struct_type._fields_[0][0] == "size":
+        value.size = ctypes.sizeof(struct_type)
     return value

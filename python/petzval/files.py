@@ -13,7 +13,7 @@ from . import _declared, errors
 from ._library import call_files, files_library, struct
 from ._pixels import pixels_of
 from .camera import Camera
-from .shot import Layer, Shot
+from .shot import Layer, Shot, range_of
 
 
 class _Lent:
@@ -118,7 +118,7 @@ def read_shot(path: str | os.PathLike, *, layer: str | None = None, view_name: s
               depth_kind: str | None = None, depth_unit_m: float = 1, behind: str | os.PathLike | None = None,
               holdout: str | os.PathLike | None = None, mask: str | None = None,
               lights: str | os.PathLike | None = None, layers: Sequence[str] = (), camera: Camera | None = None,
-              threads: int = 0, max_memory_bytes: int = 0) -> FileShot:
+              threads: int = 0, max_memory_bytes: int = 0, depth_range: tuple[float, float] | None = None) -> FileShot:
     """A shot from EXR, PNG, JPEG or TIFF, as `petzval defocus` reads it; names are those of its options.
 
     camera: numbers that are not 0 win over the file's. layers: names of colour layers to blur as well, or ["all"].
@@ -131,7 +131,7 @@ def read_shot(path: str | os.PathLike, *, layer: str | None = None, view_name: s
                     depth_unit_m=depth_unit_m, behind=_text(behind), holdout=_text(holdout), mask=_text(mask),
                     lights=_text(lights), layers=names, layer_count=len(layers),
                     camera=ctypes.pointer(own) if own is not None else None, threads=threads,
-                    max_memory_bytes=max_memory_bytes)
+                    max_memory_bytes=max_memory_bytes, depth_range=range_of(depth_range))
     handle = ctypes.POINTER(_declared.petzval_shot_file)()
     call_files("petzval_files_read_shot", ctypes.byref(source), ctypes.byref(handle))
     return FileShot(handle)

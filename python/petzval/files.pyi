@@ -12,7 +12,7 @@ from . import _declared, errors
 from ._library import call_files, files_library, struct
 from ._pixels import pixels_of
 from .camera import Camera
-from .shot import Layer, Shot
+from .shot import Layer, Shot, range_of
 
 class FileShot(Shot):
     """A shot that was read from files, or a scene. Its arrays lie in the memory of the file that was read.
@@ -32,7 +32,7 @@ class FileShot(Shot):
         The file is complete or untouched. Raises InvalidArgument for other sizes, OutputFailed.
         """
 
-def read_shot(path: str | os.PathLike, *, layer: str | None=None, view_name: str | None=None, depth_file: str | os.PathLike | None=None, depth_channel: str | None=None, depth_kind: str | None=None, depth_unit_m: float=1, behind: str | os.PathLike | None=None, holdout: str | os.PathLike | None=None, mask: str | None=None, lights: str | os.PathLike | None=None, layers: Sequence[str]=(), camera: Camera | None=None, threads: int=0, max_memory_bytes: int=0) -> FileShot:
+def read_shot(path: str | os.PathLike, *, layer: str | None=None, view_name: str | None=None, depth_file: str | os.PathLike | None=None, depth_channel: str | None=None, depth_kind: str | None=None, depth_unit_m: float=1, behind: str | os.PathLike | None=None, holdout: str | os.PathLike | None=None, mask: str | None=None, lights: str | os.PathLike | None=None, layers: Sequence[str]=(), camera: Camera | None=None, threads: int=0, max_memory_bytes: int=0, depth_range: tuple[float, float] | None=None) -> FileShot:
     """A shot from EXR, PNG, JPEG or TIFF, as `petzval defocus` reads it; names are those of its options.
 
     camera: numbers that are not 0 win over the file's. layers: names of colour layers to blur as well, or ["all"].

@@ -93,6 +93,10 @@ class Shot:
     3 or 4 planes; without alpha it is 1. depth_m: planar metres, +infinity for a miss; or radii_px: signed radii of
     the circle of confusion, + behind focus. mask: 1 where the effect is wanted. deep, behind, holdout: deep samples
     of the picture, of hidden layers, of a matte. layers: more pictures that are blurred with it. Windows are (x0, y0, x1, y1); None: the picture is the frame.
+
+    depth_kind, depth_unit_m, depth_range: the meaning of depth_m as a renderer wrote it, as --depth-kind, --unit-scale
+    and --depth-range of the command line, with its rules for missing and negative depth; without these three, depth_m is
+    planar metres.
     """
 
     colour: Any
@@ -108,6 +112,9 @@ class Shot:
     display_window: Window | None = None
     data_window: Window | None = None
     pixel_aspect: float = 1
+    depth_kind: str | None = None
+    depth_unit_m: float = 1
+    depth_range: tuple[float, float] | None = None
 
     def _struct(self, outs: Sequence[Any] = ()) -> tuple[_declared.petzval_shot, Kept]:
         """The C struct and what it points at. outs: where layers are written. Raises InvalidArgument."""
@@ -124,6 +131,7 @@ class Shot:
         for name in ("deep", "behind", "holdout", "camera"):
             value = getattr(self, name)
             members[name] = pointer(None if value is None else value._struct())
+        members["depth_meaning"] = pointer(self._depth_meaning())
         layers, owners = _layers(self.layers, outs)
         kept += owners
         members.update(layers=layers, layer_count=len(self.layers))
@@ -131,6 +139,12 @@ class Shot:
         members.update(lights=lights, light_count=len(self.lights), pixel_aspect=self.pixel_aspect,
                        display_window=rect(self.display_window), data_window=rect(self.data_window))
         return struct(_declared.petzval_shot, **members), kept
+
+    def _depth_meaning(self) -> _declared.petzval_depth_meaning | None:
+        if self.depth_kind is None and self.depth_unit_m == 1 and self.depth_range is None:
+            return None
+        kind = None if self.depth_kind is None else self.depth_kind.encode()
+        return struct(_declared.petzval_depth_meaning, kind=kind, unit_m=self.depth_unit_m, range=range_of(self.depth_range))
 
     @property
     def size(self) -> tuple[int, int]:
@@ -155,6 +169,15 @@ def _layers(layers: Sequence[Layer], outs: Sequence[Any]):
         pointers[i] = ctypes.pointer(made)
         kept.append(made)
     return pointers, kept
+
+
+def range_of(ends: Sequence[float] | None):
+    """Both ends of a range of depth as the C API has them; None: null. Raises InvalidArgument."""
+    if ends is None:
+        return None
+    if len(ends) != 2:
+        raise errors.InvalidArgument(f"depth_range has {len(ends)} numbers; two are needed")
+    return (ctypes.c_double * 2)(*ends)
 
 
 def rect(window: Window | None) -> _declared.petzval_rect:

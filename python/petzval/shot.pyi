@@ -58,6 +58,10 @@ class Shot:
     3 or 4 planes; without alpha it is 1. depth_m: planar metres, +infinity for a miss; or radii_px: signed radii of
     the circle of confusion, + behind focus. mask: 1 where the effect is wanted. deep, behind, holdout: deep samples
     of the picture, of hidden layers, of a matte. layers: more pictures that are blurred with it. Windows are (x0, y0, x1, y1); None: the picture is the frame.
+
+    depth_kind, depth_unit_m, depth_range: the meaning of depth_m as a renderer wrote it, as --depth-kind, --unit-scale
+    and --depth-range of the command line, with its rules for missing and negative depth; without these three, depth_m is
+    planar metres.
     """
     colour: Any
     depth_m: Any = None
@@ -72,10 +76,16 @@ class Shot:
     display_window: Window | None = None
     data_window: Window | None = None
     pixel_aspect: float = 1
+    depth_kind: str | None = None
+    depth_unit_m: float = 1
+    depth_range: tuple[float, float] | None = None
 
     @property
     def size(self) -> tuple[int, int]:
         """(width, height) of the picture."""
+
+def range_of(ends: Sequence[float] | None):
+    """Both ends of a range of depth as the C API has them; None: null. Raises InvalidArgument."""
 
 def rect(window: Window | None) -> _declared.petzval_rect:
     """A window as the C API has it; None: empty."""

@@ -21,8 +21,7 @@ using namespace petzval;
 using petzval::c::fail;
 using petzval::c::guarded;
 using petzval::c::missing;
-
-Error refused(const std::string& why) { return {ErrorCode::InvalidArgument, why}; }
+using petzval::c::refused;
 
 Rect rect_of(const petzval_rect& r) { return {r.x0, r.y0, r.x1, r.y1}; }
 
@@ -85,9 +84,11 @@ Status Asked::read(const petzval_look* chosen) {
     return Done{};
 }
 
-void give(const DefocusReport& frame, petzval_report** report) {
+// `warnings` of the shot come first.
+void give(DefocusReport& frame, const std::vector<std::string>& warnings, petzval_report** report) {
     if (!report) return;
     auto made = std::make_unique<petzval_report>();
+    frame.warnings.insert(frame.warnings.begin(), warnings.begin(), warnings.end());
     made->json = c::report_text(frame);
     *report = made.release();
 }
@@ -98,9 +99,9 @@ petzval_status take_frame(petzval_session& session, Asked& asked, const petzval_
         if (layer.out.width > 0)
             if (const Status ok = asked.check_out(layer.out, "a layer's out"); !ok) return fail(ok.error());
     if (const Status ok = asked.read(look); !ok) return fail(ok.error());
-    const auto frame = session.session.take(asked.shot.rendered, asked.look, asked.control);
+    auto frame = session.session.take(asked.shot.rendered, asked.look, asked.control);
     if (!frame) return fail(frame.error());
-    give(*frame, report);
+    give(*frame, asked.shot.warnings, report);
     write_pixels(frame->image, into);
     for (std::size_t i = 0; i < frame->layers.size(); ++i)
         if (asked.compared.layers[i].out.width > 0)
@@ -133,7 +134,7 @@ petzval_status add_light(petzval_session& session, Asked& asked, const petzval_l
     write_pixels(*lit, into);
     DefocusReport told;
     told.warnings = passed_over(asked);
-    give(told, report);
+    give(told, asked.shot.warnings, report);
     return PETZVAL_OK;
 }
 
@@ -201,10 +202,10 @@ petzval_status take_codes(petzval_session& session, Asked& asked, const petzval_
     if (const Status ok = check_codes(into, wanted->window); !ok) return fail(ok.error());
     if (const Status ok = asked.read(look); !ok) return fail(ok.error());
     asked.control.codes = *wanted;
-    const auto frame = session.session.take(asked.shot.rendered, asked.look, asked.control);
+    auto frame = session.session.take(asked.shot.rendered, asked.look, asked.control);
     if (!frame) return fail(frame.error());
     if (frame->codes.empty()) return fail(PETZVAL_UNSUPPORTED, "a view of an engine has no codes");
-    give(*frame, report);
+    give(*frame, asked.shot.warnings, report);
     write_codes(frame->codes, into);
     return PETZVAL_OK;
 }

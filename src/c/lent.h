@@ -2,6 +2,7 @@
 #pragma once
 
 #include "petzval/deep.h"
+#include "petzval/depth.h"
 #include "petzval/light_point.h"
 #include "petzval/petzval_c.h"
 #include "petzval/pixel_view.h"
@@ -14,6 +15,7 @@
 #include <cstring>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace petzval::c {
@@ -29,6 +31,8 @@ Struct taken(const Struct* given) {
     std::memcpy(&own, given, size < sizeof own ? size : sizeof own);
     return own;
 }
+
+inline Error refused(const std::string& why) { return {ErrorCode::InvalidArgument, why}; }
 
 // Errors: InvalidArgument naming the field that is missing or out of range; `name` is that of the picture.
 Result<ColourView> colour_view(const petzval_pixels* given, const char* name);
@@ -51,6 +55,7 @@ struct ComparedShot {
     ColourView colour;
     Place place;
     std::vector<ComparedLayer> layers;
+    std::optional<DepthSettings> meaning;  // of depth_m, where that is not planar metres
     // Errors: InvalidArgument naming the field.
     static Result<ComparedShot> compare(const petzval_shot* given);
 };
@@ -62,8 +67,9 @@ struct TakenShot {
     DeepPicture deep, behind, holdout;
     std::vector<LightPoint> lights;
     std::vector<Picture> layers;
-    Rendered rendered;  // all of these
-    // Errors: InvalidArgument for deep samples that are not counted right.
+    std::vector<std::string> warnings;  // about depth
+    Rendered rendered;                  // all of these
+    // Errors: InvalidArgument for deep samples that are not counted right, and for depth without a meaning.
     static Status take(const ComparedShot& compared, TakenShot& into);
 };
 

@@ -116,12 +116,12 @@ class Doors(unittest.TestCase):
     def test_openfx_with_a_file_of_depth(self):
         self.ofx("openfx-file", "--context", "filter", "--param", f"depthFile={self.sharp}")
 
-    def gegl(self, door, *properties, aux=True, sign=1):
-        """A frame of the GEGL operation, of depth with this sign; what GLib warned of."""
+    def gegl(self, door, *properties, aux=True, stored=lambda metres: metres):
+        """A frame of the GEGL operation, of depth as it is stored; what GLib warned of."""
         self.needs("PETZVAL_GEGL")
         shot = petzval.read_shot(self.sharp)
         pictures.write_exr(str(self.path("gegl-colour")), {c: shot.colour[..., i].tolist() for i, c in enumerate("RGBA")})
-        pictures.write_exr(str(self.path("gegl-depth")), {"Y": (sign * np.asarray(shot.depth_m)).tolist()})
+        pictures.write_exr(str(self.path("gegl-depth")), {"Y": stored(np.asarray(shot.depth_m)).tolist()})
         theirs = subprocess.run(["pkg-config", "--variable=pluginsdir", "gegl-0.4"], capture_output=True, text=True).stdout.strip()
         mine = pathlib.Path(os.environ["PETZVAL_GEGL"]).parent
         words = ["gegl", self.path("gegl-colour"), "-o", self.path(door), "--", "petzval:defocus", *properties]
@@ -138,8 +138,15 @@ class Doors(unittest.TestCase):
         self.same("gegl")
 
     def test_gegl_with_negative_depth(self):
-        self.gegl("gegl-negative", *self.CAMERA, sign=-1)
+        self.gegl("gegl-negative", *self.CAMERA, stored=np.negative)
         self.same("gegl-negative")
+
+    def test_gegl_joins_depth_of_few_codes(self):
+        self.gegl("gegl-codes", *self.CAMERA, stored=lambda metres: np.round(np.minimum(metres, 25.5), 1))
+        run(os.environ["PETZVAL"], "defocus", self.sharp, "--depth", self.path("gegl-depth"), "-o", self.path("program-codes"),
+            *FLAGS, "--lens", LENS, "--overwrite")
+        self.assertEqual(planes(self.path("gegl-codes")), planes(self.path("program-codes")))
+        self.assertNotEqual(planes(self.path("gegl-codes")), self.expected)
 
     def test_gegl_through_a_preset(self):
         self.gegl("gegl-preset", *self.CAMERA[:-1], "preset=achromat")

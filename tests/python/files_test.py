@@ -116,6 +116,11 @@ class Files(unittest.TestCase):
         with self.assertRaisesRegex(petzval.InvalidFile, "missing.exr"):
             petzval.inspect(self.folder / "missing.exr")
 
+    def test_depth_of_a_file_may_have_a_range(self):
+        pictures.write_exr(str(self.folder / "shares.exr"), pictures.picture(8, 6, 0.5, lambda x, y: x / 10))
+        shot = petzval.read_shot(self.folder / "shares.exr", depth_kind="normalized", depth_range=(1, 11))
+        np.testing.assert_allclose(shot.depth_m[2], 1 + np.arange(8), rtol=1e-6)
+
     def test_errors(self):
         with self.assertRaisesRegex(petzval.InvalidFile, "missing.exr"):
             petzval.read_shot(self.folder / "missing.exr")
@@ -123,6 +128,8 @@ class Files(unittest.TestCase):
             petzval.make_scene("no such scene", 32, 18)
         with self.assertRaises(petzval.InvalidArgument):
             petzval.read_shot(self.folder / "x.exr", depth_kind="nonsense")
+        with self.assertRaisesRegex(petzval.InvalidArgument, "two are needed"):
+            petzval.read_shot(self.folder / "x.exr", depth_kind="normalized", depth_range=(1,))
         scene = petzval.make_scene("bars", 32, 18)
         with self.assertRaises(petzval.InvalidArgument):
             scene.write_like(self.folder / "out.exr", np.zeros((4, 4, 4), np.float32))

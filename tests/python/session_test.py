@@ -52,6 +52,28 @@ def shot(height=24, width=32, radius=3, camera=None):
     return petzval.Shot(colour, radii_px=np.full((height, width), radius, np.float32), camera=camera)
 
 
+class Depth(unittest.TestCase):
+    def frame(self, **given):
+        given.setdefault("camera", petzval.Camera(85, 36, 1.4, 3))
+        return petzval.defocus(shot().colour, **given).image
+
+    def test_a_shot_says_what_its_depth_means(self):
+        metres = np.linspace(2, 9, 24 * 32, dtype=np.float32).reshape(24, 32)
+        expected = self.frame(depth_m=metres)
+        np.testing.assert_array_equal(self.frame(depth_m=-2 * metres, depth_unit_m=0.5), expected)
+        self.assertFalse(np.array_equal(self.frame(depth_m=metres, depth_kind="ray"), expected))
+        shares = np.full((24, 32), 0.75, np.float32)
+        np.testing.assert_array_equal(self.frame(depth_m=shares, depth_kind="coc-px", depth_range=(-6, 6)),
+                                      self.frame(radii_px=np.full((24, 32), 3, np.float32)))
+
+    def test_a_meaning_that_is_none_is_refused(self):
+        metres = np.full((24, 32), 2, np.float32)
+        for given, says in (({"depth_kind": "z"}, "depth_meaning.kind"), ({"depth_kind": "normalized"}, "depth.range"),
+                            ({"depth_range": (1, 2, 3)}, "two are needed")):
+            with self.assertRaisesRegex(petzval.InvalidArgument, says):
+                self.frame(depth_m=metres, **given)
+
+
 class Looks(unittest.TestCase):
     def test_fields_have_the_names_of_the_json(self):
         look = petzval.Look(engine="gather", lens="doublet", **{"lens.blades": 5})

@@ -53,6 +53,7 @@ Result<ShotSource> source_of(const petzval_shot_source& s) {
         source.depth.kind = *kind, source.depth_kind_given = true;
     }
     if (s.depth_unit_m != 0) source.depth.unit_scale_m = s.depth_unit_m;
+    if (s.depth_range) source.depth.range_near = s.depth_range[0], source.depth.range_far = s.depth_range[1];
     source.behind = text_of(s.behind), source.holdout = text_of(s.holdout);
     source.mask = text_of(s.mask), source.lights = text_of(s.lights);
     const petzval_camera camera = c::taken(s.camera);
