@@ -9,9 +9,7 @@
 #include "output.h"
 #include "verbs.h"
 
-#include <algorithm>
 #include <memory>
-#include <optional>
 
 namespace petzval::cli {
 namespace {
@@ -19,8 +17,6 @@ namespace {
 struct PointsFlags {
     std::string name, output;
     PointSettings settings;
-    std::optional<double> horizon;
-    std::optional<int> count;
     OverwriteFlags overwrite;
     RunFlags run;
 
@@ -40,8 +36,8 @@ void PointsFlags::add_to(Verb& verb) {
                settings.sensor_width_mm)
         .value("--horizon", "FRACTION",
                "height of the horizon, as a fraction of the picture from the top (default 0.5)", parse_number,
-               horizon)
-        .value("--count", "N", "number of points (default: depends on the set)", parse_count, count)
+               settings.horizon)
+        .value("--count", "N", "number of points (default: depends on the set)", parse_count, settings.count)
         .value("--seed", "N", "seed of all random choices (default 1)", parse_seed, settings.seed);
     FlagGroup(verb, "Output").writes("-o,--output", "FILE.csv", "x, y, depth, r, g, b, size", output);
     overwrite.add_to(verb, false);
@@ -55,17 +51,6 @@ void PointsFlags::check(const Verb& verb) {
     run.apply();
     overwrite.check();
     if (!output.ends_with(".csv")) throw UsageError("-o " + output + ": the name must end in .csv");
-    const auto& sets = point_set_list();
-    const auto found =
-        std::find_if(sets.begin(), sets.end(), [&](const auto& set) { return set.name == name; });
-    if (found == sets.end()) {
-        std::vector<std::string> names;
-        for (const PointSetSummary& set : sets) names.push_back(set.name);
-        throw UsageError("there are no points called " + name + "; there are " + listed(names));
-    }
-    if (horizon && !found->has_horizon) throw UsageError("--horizon has no effect on " + name);
-    settings.horizon = horizon.value_or(settings.horizon);
-    settings.count = count.value_or(0);
 }
 
 Status make_file(const PointsFlags& flags) {

@@ -128,15 +128,15 @@ struct PointSettings {
     // The pinhole camera. It looks along the horizon and is shifted so that the horizon lies at this
     // fraction of the height below the top.
     double focal_length_mm = 50, sensor_width_mm = 36;
-    double horizon = 0.5;
-    int count = 0;  // 0: the set's own
+    std::optional<double> horizon = {};  // not given: 0.5; only for sets that have one
+    int count = 0;                       // 0: the set's own
     std::uint64_t seed = 1;
 };
 
 // Points ordered by depth, all finite, none negative; the same for the same settings on every machine with
 // IEEE arithmetic. Light is scaled with the area of a pixel, so a larger picture shows the same lights.
-// Errors: InvalidArgument for an unknown set (the message lists them), numbers out of range, or too many
-// points.
+// Errors: InvalidArgument for an unknown set (the message lists them), numbers out of range, a horizon of a
+// set without one, or too many points.
 PETZVAL_API Result<std::vector<LightPoint>> make_points(const std::string& name,
                                                         const PointSettings& settings);
 

@@ -24,7 +24,7 @@ records::Json record_of(const PointsFile& file, std::size_t count) {
                             {"height", points.height},
                             {"focal_length_mm", points.focal_length_mm},
                             {"sensor_width_mm", points.sensor_width_mm},
-                            {"horizon", points.horizon},
+                            {"horizon", points.horizon.value_or(0.5)},
                             {"count", count},
                             {"seed", points.seed}};
     return record;

@@ -18,6 +18,7 @@ const Rows& source_flags() {
         {"depth.kind", "--depth-kind"},
         {"depth.range", "--depth-range"},
         {"depth.unit_scale_m", "--unit-scale"},
+        {"points.horizon", "--horizon"},
         {"read.depth_channel", "--depth-channel"},
         {"read.depth_file", "--depth"},
         {"read.layer", "--layer"},

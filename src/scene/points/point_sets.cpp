@@ -21,7 +21,7 @@ Status check(const PointSettings& s) {
     const auto is_length = [](double mm) { return std::isfinite(mm) && mm >= 1 && mm <= 10000; };
     if (!is_length(s.focal_length_mm)) return invalid("the focal length must be 1 to 10000 mm");
     if (!is_length(s.sensor_width_mm)) return invalid("the sensor width must be 1 to 10000 mm");
-    if (!(s.horizon >= -1 && s.horizon <= 2))
+    if (s.horizon && !(*s.horizon >= -1 && *s.horizon <= 2))
         return invalid("the horizon must lie -1 to 2 heights below the top");
     if (s.count < 0 || s.count > 20'000'000) return invalid("the count of points must be 1 to 20000000");
     return Done{};
@@ -53,6 +53,8 @@ Result<std::vector<LightPoint>> make_points(const std::string& name, const Point
         return scene::invalid("there are no points called " + name + "; there are " + known);
     }
     if (const Status status = scene::check(settings); !status) return status.error();
+    if (settings.horizon && !set->summary.has_horizon)
+        return scene::invalid("points.horizon has no effect on " + name);
     const int count = settings.count > 0 ? settings.count : set->summary.count;
     std::vector<LightPoint> points = set->make(scene::PointView(settings), count, settings.seed);
     if (int(points.size()) < count && settings.count > 0) {

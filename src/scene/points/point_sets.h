@@ -15,13 +15,15 @@
 
 namespace petzval::scene {
 
+inline constexpr double kUsualHorizon = 0.5;
+
 struct PointView {
     explicit PointView(const PointSettings& settings)
         : width(settings.width),
           height(settings.height),
           focal_px(float(settings.focal_length_mm / settings.sensor_width_mm * settings.width)),
           centre_x(0.5f * float(settings.width)),
-          horizon_px(float(settings.horizon * settings.height)) {}
+          horizon_px(float(settings.horizon.value_or(kUsualHorizon) * settings.height)) {}
     int width, height;
     float focal_px, centre_x, horizon_px;
 
