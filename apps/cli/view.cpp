@@ -204,23 +204,15 @@ Status open_window(const ViewFlags&) {
 
 // Its name stands where that of a file would.
 void check_scene(ViewFlags& flags) {
-    const auto is_gltf = [](const std::string& name) {
-        return name.ends_with(".gltf") || name.ends_with(".glb");
-    };
-    if (flags.scene.empty() && is_gltf(flags.input.path)) flags.scene.swap(flags.input.path);
+    if (flags.scene.empty() && is_scene_file(flags.input.path)) flags.scene.swap(flags.input.path);
     if (flags.scene.empty()) {
         if (flags.scene_size) throw UsageError("--scene-size has no effect without --scene");
         if (!flags.scene_camera.empty()) throw UsageError("--scene-camera has no effect without a glTF file");
         return;
     }
     refuse_both(!flags.input.path.empty(), "IN", true, "--scene");
-    std::vector<std::string> known;
-    for (const SceneSummary& one : scene_list()) known.push_back(one.name);
-    if (!is_gltf(flags.scene) && std::find(known.begin(), known.end(), flags.scene) == known.end())
-        throw UsageError("--scene " + flags.scene + ": no such scene" + did_you_mean(flags.scene, known) +
-                         "; petzval scene list names them");
-    if (!is_gltf(flags.scene) && !flags.scene_camera.empty())
-        throw UsageError("--scene-camera has no effect: " + flags.scene + " is not a glTF file");
+    if (const Status fine = petzval::check_scene(flags.scene, flags.scene_camera); !fine)
+        throw UsageError(in_flags(fine.error().message));
     flags.input.path = flags.scene;
 }
 

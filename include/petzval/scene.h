@@ -30,6 +30,11 @@ struct SceneSummary {
 };
 
 PETZVAL_API const std::vector<SceneSummary>& scene_list();
+// True if a scene of that name is a glTF file; other names are those of built-in scenes.
+PETZVAL_API bool is_scene_file(const std::string& name);
+// Errors: InvalidArgument for a name that is neither (the message lists the scenes), and for
+// SceneSettings::own_camera where the scene is not a file.
+PETZVAL_API Status check_scene(const std::string& name, const std::string& own_camera = "");
 
 // A point of a scene's world: +x right, +y up, +z away from the scene's own camera, metres.
 struct ScenePoint {

@@ -7,6 +7,7 @@
 #include "scene/soft_depth.h"
 #include "scene/tracing.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <sstream>
@@ -72,7 +73,7 @@ std::optional<BuiltInScene> find(const std::string& name, std::uint64_t seed) {
 }
 
 Error unknown(const std::string& name) {
-    std::string text = "there is no built-in scene \"" + name + "\"; there are ";
+    std::string text = "there is no scene " + name + "; there are ";
     const char* separator = "";
     for (const BuiltInScene& scene : built_in_scenes())
         text += separator + scene.summary.name, separator = ", ";
@@ -179,6 +180,19 @@ struct StandingScene::Contents {
     std::vector<std::string> warnings, cameras;
 };
 
+bool is_scene_file(const std::string& name) { return scene::is_gltf(name); }
+
+Status check_scene(const std::string& name, const std::string& own_camera) {
+    if (is_scene_file(name)) return Done{};
+    const auto is_name = [&](const scene::BuiltInScene& built_in) { return built_in.summary.name == name; };
+    const auto& all = scene::built_in_scenes();
+    if (std::none_of(all.begin(), all.end(), is_name)) return scene::unknown(name);
+    if (own_camera.empty()) return Done{};
+    return Error{ErrorCode::InvalidArgument,
+                 "scene.own_camera has no effect: " + name + " is not a file with cameras",
+                 "scene.own_camera"};
+}
+
 StandingScene::StandingScene(std::unique_ptr<Contents> contents) : contents_(std::move(contents)) {}
 StandingScene::~StandingScene() = default;
 StandingScene::StandingScene(StandingScene&&) noexcept = default;
@@ -193,12 +207,8 @@ Status StandingScene::Contents::fill(const std::string& name, const SceneSetting
         warnings = std::move(file->warnings), cameras = std::move(file->cameras);
         return scene::check(settings, frames);
     }
-    if (!settings.own_camera.empty())
-        return Error{ErrorCode::InvalidArgument,
-                     "scene.own_camera has no effect: " + name + " is not a file with cameras",
-                     "scene.own_camera"};
+    if (const Status known = check_scene(name, settings.own_camera); !known) return known;
     std::optional<scene::BuiltInScene> found = scene::find(name, settings.seed);
-    if (!found) return scene::unknown(name);
     frames = found->summary.frames;
     if (const Status status = scene::check(settings, frames); !status) return status;
     const float time = scene::time_of(settings.frame, frames);

@@ -1,5 +1,4 @@
 #include "petzval/display_files.h"
-#include "petzval/reports/words.h"
 #include "petzval/shots/scene_files.h"
 
 #include <algorithm>
@@ -9,8 +8,6 @@ namespace petzval {
 namespace {
 
 Error invalid(const std::string& message) { return {ErrorCode::InvalidArgument, message}; }
-
-bool is_gltf(const std::string& name) { return name.ends_with(".gltf") || name.ends_with(".glb"); }
 
 // A glTF file is not among them.
 const SceneSummary* built_in(const std::string& name) {
@@ -34,13 +31,9 @@ Status check_outputs(const SceneFiles& files) {
 }  // namespace
 
 Status check(const SceneFiles& files) {
-    const SceneSummary* const known = built_in(files.scene);
-    if (!known && !is_gltf(files.scene)) {
-        std::vector<std::string> names;
-        for (const SceneSummary& scene : scene_list()) names.push_back(scene.name);
-        return invalid("there is no scene " + files.scene + "; there are " + listed(names));
-    }
+    if (const Status known = check_scene(files.scene, files.settings.own_camera); !known) return known;
     if (const Status fine = check_outputs(files); !fine) return fine;
+    const SceneSummary* const known = built_in(files.scene);
     if (files.settings.want_motion && (!known || known->frames == 1))
         return invalid("scene.want_motion has no effect: " + files.scene + " does not move");
     return Done{};

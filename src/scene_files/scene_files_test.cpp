@@ -45,6 +45,8 @@ TEST_F(SceneFilesTest, WrongFilesAreRefusedBeforeTheWork) {
     };
     EXPECT_TRUE(
         message([](auto& f) { f.scene = "post office"; }).starts_with("there is no scene post office;"));
+    EXPECT_EQ(message([](auto& f) { f.scene = "rows", f.settings.own_camera = "2"; }),
+              "scene.own_camera has no effect: rows is not a file with cameras");
     EXPECT_EQ(message([](auto& f) { f.truth = "t.png"; }), "t.png: the name must end in .exr");
     EXPECT_EQ(message([](auto& f) { f.truth = f.output; }),
               "scene.output, scene.truth and scene.layers must be different files");
