@@ -168,15 +168,45 @@ struct LensPictureFile {
     std::size_t max_memory_bytes = 0;   // 0: no limit
     std::variant<LensDiscSettings, BokehTextureSettings, BokehVolumeSettings> picture = {};
 };
+// Errors: InvalidArgument for a choice of the lens that shows only away from the middle, where the kernel or
+// the volume is of the middle.
+PETZVAL_API Status check(const LensPictureFile& file);
 struct LensPictureMade {
     std::string lens;     // the lens that was used, in words
     Camera camera;        // the lens was mounted on it
     std::string warning;  // empty: none
     std::string record;   // that of `petzval lens psf --json`, `lens table` or `lens volume`
 };
-// Calls `drawn` before the file is written; the record is empty then. Errors: those of read_lens_images(),
-// Lens::open(), mounted_on() and of the kernels; OutOfMemory; OutputFailed.
+// Calls `drawn` before the file is written; the record is empty then. Errors: those of check(),
+// read_lens_images(), Lens::open(), mounted_on() and of the kernels; OutOfMemory; OutputFailed.
 PETZVAL_API Result<LensPictureMade> make_lens_picture(
     LensPictureFile file, const std::function<void(const LensPictureMade&)>& drawn = {});
+
+// An atlas of discs as files, as petzval lens atlas writes it: atlas.json and atlas.bin in a folder.
+struct LensAtlasFiles {
+    Look look = {};                     // its lens, with the images of apertures that it names
+    CameraChoice camera = {};           // numbers that are given replace the lens's own
+    int width_px = 1920;                // of the picture that the camera takes
+    std::optional<int> height_px = {};  // empty: 9/16 of the width
+    LensAtlasSettings atlas = {};
+    std::string folder = {};           // made if it does not exist
+    std::size_t max_memory_bytes = 0;  // 0: no limit
+};
+struct LensAtlasMade {
+    std::string lens;    // the lens that was used, in words
+    Camera camera;       // the lens was mounted on it
+    std::string record;  // that of `petzval lens atlas --json`
+};
+// The paths of both files, the header first.
+PETZVAL_API std::vector<std::string> outputs_of(const LensAtlasFiles& files);
+// Errors: InvalidArgument for a number of zones out of range; for a pupil that is not round with several
+// zones, which shaders turn about the middle; for a choice that shows only away from the middle with one
+// zone.
+PETZVAL_API Status check(const LensAtlasFiles& files);
+// Writes the header last: if it exists, its texels do. Existing files are replaced. `may_write` is asked when
+// the folder exists, before the files are written; its error stops. Errors: those of check(),
+// read_lens_images(), Lens::open(), mounted_on() and lens_atlas(); OutOfMemory; OutputFailed.
+PETZVAL_API Result<LensAtlasMade> make_lens_atlas(LensAtlasFiles files,
+                                                  const std::function<Status()>& may_write = {});
 
 }  // namespace petzval

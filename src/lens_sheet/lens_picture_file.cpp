@@ -1,12 +1,16 @@
-// petzval lens psf, table and volume: from a lens and a camera to a file and its record.
+// petzval lens psf, table, volume and atlas: from a lens and a camera to files and their record.
 #include "petzval/display_files.h"
 #include "petzval/lens_json.h"
 #include "petzval/lens_report.h"
+#include "petzval/look_check.h"
+#include "petzval/output.h"
 #include "petzval/reports/stopwatch.h"
 #include "petzval/reports/words.h"
 
 #include "records/record_json.h"
 
+#include <algorithm>
+#include <filesystem>
 #include <utility>
 
 namespace petzval {
@@ -93,36 +97,136 @@ const char* verb_of(const LensPictureFile& file) {
     return kVerbs[file.picture.index()];
 }
 
+// True for a kernel or a volume of the middle; a table is always of the middle, and says so by its kind.
+bool is_of_the_middle(const LensPictureFile& file) {
+    if (const auto* disc = std::get_if<LensDiscSettings>(&file.picture))
+        return disc->field_x == 0 && disc->field_y == 0;
+    const auto* volume = std::get_if<BokehVolumeSettings>(&file.picture);
+    return volume && volume->field_x == 0 && volume->field_y == 0;
+}
+
+// The first field that the look chose and `holds` is true for; empty if there is none.
+template <typename Holds>
+std::string first_chosen(const Look& look, const Holds& holds) {
+    const std::vector<std::string> chosen = chosen_fields(look);
+    const auto found = std::find_if(chosen.begin(), chosen.end(), holds);
+    return found == chosen.end() ? "" : *found;
+}
+
+Error refused(const std::string& field, const std::string& why) {
+    return {ErrorCode::InvalidArgument, field + " " + why, field};
+}
+
+// The lens and the camera that both kinds of files ask for.
+struct Mounted {
+    Lens lens;
+    LensMount mount;
+};
+template <typename File>
+Result<Mounted> mounted(File& file) {
+    if (Status done = read_lens_images(file.look); !done) return done.error();
+    const auto lens = Lens::open(file.look.lens);
+    if (!lens) return lens.error();
+    const auto mount = mounted_on(*lens, file.camera, file.width_px, file.height_px);
+    if (!mount) return mount.error();
+    return Mounted{*lens, *mount};
+}
+
+// The parts of a record that every verb of a lens has.
+Json record_of(const std::string& verb, const Look& look, const std::string& lens, const LensMount& mount) {
+    Json record = Json::parse(empty_record(verb));
+    record["lens"] = Json::parse(record_of_lens(look, lens));
+    record["camera"] = Json::parse(record_of_json(lens_mount_json(mount)));
+    return record;
+}
+
+std::string finished(Json record, const Stopwatch& watch) {
+    record["seconds"]["total"] = watch.seconds();
+    record["peak_memory_bytes"] = peak_memory_bytes();
+    return records::as_text(record);
+}
+
+Status make_folder(const std::string& folder) {
+    std::error_code problem;
+    std::filesystem::create_directories(folder, problem);
+    if (std::filesystem::is_directory(folder)) return Done{};
+    return Error{ErrorCode::OutputFailed,
+                 "cannot make the folder " + folder + ": " +
+                     (problem ? problem.message() : std::string("there is a file of that name"))};
+}
+
 }  // namespace
+
+Status check(const LensPictureFile& file) {
+    if (!is_of_the_middle(file)) return Done{};
+    const std::string field = first_chosen(file.look, is_off_axis);
+    if (field.empty()) return Done{};
+    return refused(field,
+                   "has no effect in the middle of the picture; give disc.field, as disc.field 0.5,0.3");
+}
 
 Result<LensPictureMade> make_lens_picture(LensPictureFile file,
                                           const std::function<void(const LensPictureMade&)>& drawn) {
     const Stopwatch watch;
     const auto kind = kind_of_output(file.output);
     if (!kind) return kind.error();
-    if (Status done = read_lens_images(file.look); !done) return done.error();
-    const auto lens = Lens::open(file.look.lens);
-    if (!lens) return lens.error();
-    const auto mount = mounted_on(*lens, file.camera, file.width_px, file.height_px);
-    if (!mount) return mount.error();
-    const Drawing draw(file, *kind == FileKind::Png, *lens, *mount);  // outlives the picture
+    if (const Status fine = check(file); !fine) return fine.error();
+    const auto on = mounted(file);
+    if (!on) return on.error();
+    const Drawing draw(file, *kind == FileKind::Png, on->lens, on->mount);  // outlives the picture
     auto picture = std::visit(draw, file.picture);
     if (!picture) return picture.error();
-    LensPictureMade made{picture->lens, mount->camera, picture->warning, ""};
+    LensPictureMade made{picture->lens, on->mount.camera, picture->warning, ""};
     if (drawn) drawn(made);
     const Status done = *kind == FileKind::Png ? write_lens_view(file.output, std::move(picture->view),
                                                                  file.display, file.overwrite)
                                                : picture->write_exr();
     if (!done) return done.error();
-    Json record = Json::parse(empty_record(verb_of(file)));
+    Json record = record_of(verb_of(file), file.look, made.lens, on->mount);
     record.update(picture->record);
     record["output"] = file.output;
-    record["lens"] = Json::parse(record_of_lens(file.look, made.lens));
-    record["camera"] = Json::parse(record_of_json(lens_mount_json(*mount)));
-    record["seconds"]["total"] = watch.seconds();
-    record["peak_memory_bytes"] = peak_memory_bytes();
-    made.record = records::as_text(record);
+    made.record = finished(std::move(record), watch);
     return made;
+}
+
+std::vector<std::string> outputs_of(const LensAtlasFiles& files) {
+    const std::filesystem::path folder = files.folder;
+    return {(folder / "atlas.json").string(), (folder / "atlas.bin").string()};
+}
+
+Status check(const LensAtlasFiles& files) {
+    const int zones = files.atlas.zones;
+    if (zones < 1 || zones > 64) return refused("atlas.zones", std::to_string(zones) + ": must be 1 to 64");
+    const std::string turned = zones > 1 ? first_chosen(files.look, is_not_round) : "";
+    if (!turned.empty())
+        return refused(turned,
+                       "makes a pupil that is not round, and zones are rings that shaders turn about the "
+                       "middle; give atlas.zones 1");
+    const std::string idle = zones == 1 ? first_chosen(files.look, is_off_axis) : "";
+    if (idle.empty()) return Done{};
+    return refused(idle, "has no effect with atlas.zones 1, the middle of the picture");
+}
+
+Result<LensAtlasMade> make_lens_atlas(LensAtlasFiles files, const std::function<Status()>& may_write) {
+    const Stopwatch watch;
+    if (const Status fine = check(files); !fine) return fine.error();
+    const auto on = mounted(files);
+    if (!on) return on.error();
+    if (const Status fits = lens_atlas_fits(on->lens, on->mount, files.atlas, files.max_memory_bytes); !fits)
+        return fits.error();
+    const auto atlas = lens_atlas(on->lens, on->mount, files.atlas);
+    if (!atlas) return atlas.error();
+    const std::vector<std::string> outputs = outputs_of(files);
+    const std::string header = lens_atlas_json(*atlas, files.look.lens.name, on->mount) + "\n";
+    Status done = make_folder(files.folder);
+    if (done && may_write) done = may_write();
+    if (done) done = write_text(outputs[1], atlas->texels);
+    if (done) done = write_text(outputs[0], header);
+    if (!done) return done.error();
+    Json record = record_of("lens atlas", files.look, atlas->lens, on->mount);
+    record["output"] = outputs[0], record["outputs"] = outputs;
+    record["radii_px"] = atlas->radii_px;
+    return LensAtlasMade{atlas->lens, on->mount.camera, finished(std::move(record), watch)};
 }
 
 }  // namespace petzval

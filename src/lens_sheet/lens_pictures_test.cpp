@@ -126,6 +126,60 @@ TEST(LensPicture, AnAtlasOrAReportThatDoesNotFitIsRefused) {
     EXPECT_EQ(lens_report_fits(59 * kMebibyte).error().code, ErrorCode::OutOfMemory);
 }
 
+TEST(LensPicture, OfTheMiddleRefusesWhatShowsOnlyAwayFromIt) {
+    LensPictureFile file;
+    file.look.lens.name = "doublet";
+    file.look.lens.coma = 1;
+    file.output = "never.exr";
+    file.picture = LensDiscSettings{};
+    EXPECT_EQ(check(file).error().field, "lens.coma");
+    EXPECT_EQ(make_lens_picture(file).error().field, "lens.coma");
+    file.picture = BokehVolumeSettings{};
+    EXPECT_FALSE(check(file));
+    file.picture = LensDiscSettings{.field_x = 0.5};
+    EXPECT_TRUE(check(file));
+}
+
+TEST(LensAtlasFiles, AreWrittenWithTheirRecord) {
+    const test::TemporaryFolder folder;
+    LensAtlasFiles files;
+    files.look.lens.name = "ideal";
+    files.atlas.zones = 1;
+    files.folder = folder / "new/atlas";
+    const Error no{ErrorCode::OutputFailed, "no"};
+    EXPECT_EQ(make_lens_atlas(files, [&] { return Status(no); }).error().message, "no");
+    EXPECT_FALSE(std::filesystem::exists(outputs_of(files)[1]));
+    const auto made = make_lens_atlas(files, [&] {
+        EXPECT_TRUE(std::filesystem::is_directory(files.folder));
+        return Status(Done{});
+    });
+    ASSERT_TRUE(made) << made.error().message;
+    EXPECT_NE(made->record.find("\"verb\":\"lens atlas\""), std::string::npos) << made->record;
+    EXPECT_NE(made->record.find("radii_px"), std::string::npos);
+    const std::vector<std::string> outputs = outputs_of(files);
+    ASSERT_EQ(outputs.size(), 2u);
+    EXPECT_TRUE(outputs[0].ends_with("atlas.json"));
+    EXPECT_TRUE(std::filesystem::exists(outputs[0]));
+    EXPECT_EQ(std::filesystem::file_size(outputs[1]), 4u * kAtlasRadii * kAtlasTileSide * kAtlasTileSide);
+}
+
+TEST(LensAtlasFiles, OfRingsAreOfRoundPupilsAndOneZoneIsTheMiddle) {
+    const test::TemporaryFolder folder;
+    LensAtlasFiles files;
+    files.folder = folder / "atlas";
+    files.look.lens.aperture.blades = 5;
+    EXPECT_EQ(make_lens_atlas(files).error().field, "lens.blades");
+    files.atlas.zones = 1;
+    EXPECT_TRUE(check(files));
+    files.look.lens.cats_eye = 0.5;
+    EXPECT_EQ(check(files).error().field, "lens.cats_eye");
+    files.look = {}, files.atlas.zones = 65;
+    EXPECT_EQ(check(files).error().field, "atlas.zones");
+    files.atlas.zones = 1, files.max_memory_bytes = 1 << 10;
+    EXPECT_EQ(make_lens_atlas(files).error().code, ErrorCode::OutOfMemory);
+    EXPECT_FALSE(std::filesystem::exists(files.folder));
+}
+
 TEST(LensPicture, NothingIsWrittenForALensOrAFormatThatIsNone) {
     const test::TemporaryFolder folder;
     LensPictureFile file;

@@ -68,6 +68,8 @@ const Rows& source_flags() {
 // All others that choose no look.
 const Rows& other_flags() {
     static const Rows rows{
+        {"atlas.largest_coc_px", "--defocus"},
+        {"atlas.zones", "--zones"},
         {"camera.aperture_diameter_mm", "--aperture-diameter"},
         {"camera.f_number", "--fstop"},
         {"camera.focal_length_mm", "--focal-length"},

@@ -1,7 +1,6 @@
 #include "lens/mount.h"
 
-#include "petzval/lens_json.h"
-#include "petzval/lens_report.h"
+#include "petzval/reports/words.h"
 
 namespace petzval::cli {
 void MountFlags::add_lens_to(Verb& verb, const LookFlags::Idle& idle) {
@@ -18,27 +17,9 @@ void MountFlags::check_lens(const Verb& verb) {
     if (camera.image_scale) throw UsageError("--breathing has no effect on a disc whose radius is given");
 }
 
-Result<MountedLens> MountFlags::open() {
-    if (Status done = read_lens_images(look.look()); !done) return done.error();
-    const auto lens = Lens::open(look.look().lens);
-    if (!lens) return lens.error();
-    const auto mount = mounted_on(*lens, camera.choice(), width_px, height_px);
-    if (!mount) return mount.error();
-    return MountedLens{*mount, *lens};
-}
-
 std::string camera_text(const Camera& c) {
     return plain(c.focal_length_mm, 4) + " mm, sensor " + plain(c.sensor_width_mm, 4) + " mm, f/" +
            plain(c.f_number, 3);
-}
-
-Json mount_json(const LensMount& mount) { return json_of(lens_mount_json(mount)); }
-
-bool is_off_axis(const LookRow& row) {
-    for (const char* flag : {"--cats-eye", "--lateral-colour", "--add-lateral-colour",
-                             "--add-field-curvature", "--coma", "--astigmatism", "--distortion"})
-        if (row.flag == std::string(flag)) return true;
-    return false;
 }
 
 }  // namespace petzval::cli

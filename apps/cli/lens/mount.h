@@ -1,7 +1,7 @@
 // A lens and a camera for it, as verbs that draw discs ask for them.
 #pragma once
 
-#include "petzval/lens_kernel.h"
+#include "petzval/camera.h"
 
 #include "console/report.h"
 #include "flags/camera.h"
@@ -12,11 +12,6 @@
 #include <string>
 
 namespace petzval::cli {
-
-struct MountedLens {
-    LensMount mount;
-    Lens lens;
-};
 
 struct MountFlags {
     std::string lens_name;
@@ -29,13 +24,8 @@ struct MountFlags {
     void add_lens_to(Verb& verb, const LookFlags::Idle& idle = {});
     // Throws UsageError.
     void check_lens(const Verb& verb);
-    // Errors: those of Lens::open().
-    Result<MountedLens> open();
 };
 
 std::string camera_text(const Camera& c);
-Json mount_json(const LensMount& mount);
-// True for choices that show only off the middle of the picture.
-bool is_off_axis(const LookRow& row);
 
 }  // namespace petzval::cli

@@ -1,8 +1,10 @@
 // petzval lens psf and lens table: what a lens makes of a point of light, as pictures.
 #include "petzval/lens_kernel.h"
 #include "petzval/lens_report.h"
+#include "petzval/look_check.h"
 
 #include "console/console.h"
+#include "flags/fields.h"
 #include "flags/look_rows.h"
 #include "flags/run_flags.h"
 #include "flags/values.h"
@@ -42,6 +44,15 @@ struct PictureFlags : MountFlags {
         run.add_json_to(verb);
         run.add_log_to(verb, is_table);
     }
+    LensPictureFile file(decltype(LensPictureFile::picture) picture) {
+        LensPictureFile file{look.look(), camera.choice(), width_px, height_px};
+        file.output = output;
+        file.display = develop;
+        file.overwrite = !overwrite.no_clobber;
+        file.max_memory_bytes = process_memory_bytes(0);
+        file.picture = std::move(picture);
+        return file;
+    }
     void check(const Verb& verb) {
         require_argument(verb, output, "-o OUT");
         run.apply();
@@ -56,12 +67,7 @@ struct PictureFlags : MountFlags {
 // Draws, writes and reports.
 Status make(PictureFlags& flags, decltype(LensPictureFile::picture) picture) {
     if (flags.overwrite.skips({flags.output})) return Done{};
-    LensPictureFile file{flags.look.look(), flags.camera.choice(), flags.width_px, flags.height_px};
-    file.output = flags.output;
-    file.display = flags.develop;
-    file.overwrite = !flags.overwrite.no_clobber;
-    file.max_memory_bytes = process_memory_bytes(0);
-    file.picture = std::move(picture);
+    LensPictureFile file = flags.file(std::move(picture));
     ShownProgress shown(flags.run, "lens table");
     if (auto* table = std::get_if<BokehTextureSettings>(&file.picture)) {
         table->progress = shown.progress;
@@ -96,12 +102,8 @@ bool shapes_the_pupil(const LookRow& row) {
     return heading == "Lens" || heading == "Pupil";
 }
 
-void refuse_on_axis(const PictureFlags& flags, const Interval& field) {
-    if (field.low != 0 || field.high != 0) return;
-    for (const LookRow& row : look_rows())
-        if (is_off_axis(row) && flags.look.is_typed(row.field))
-            throw UsageError(std::string(row.flag) +
-                             " has no effect in the middle of the picture; give --field, as --field 0.5,0.3");
+void check_file(const LensPictureFile& file) {
+    if (const Status fine = petzval::check(file); !fine) throw UsageError(in_flags(fine.error().message));
 }
 
 void add_psf(Verb& lens, Action& chosen) {
@@ -120,9 +122,9 @@ void add_psf(Verb& lens, Action& chosen) {
     flags->add_output_to(verb, false);
     when_typed(verb, [flags, &verb, &chosen] {
         flags->check(verb);
-        refuse_on_axis(*flags, flags->field);
         flags->disc.field_x = flags->field.low, flags->disc.field_y = flags->field.high;
         flags->disc.raw = flags->raw;
+        check_file(flags->file(flags->disc));
         chosen = [flags] { return make(*flags, flags->disc); };
     });
 }
@@ -133,9 +135,10 @@ void add_table(Verb& lens, Action& chosen) {
                           "petzval lens table doublet -o table.exr\n"
                           "petzval lens table uncorrected --wavelengths 3 --defocus 40 -o table.png");
     auto flags = std::make_shared<TableFlags>();
-    flags->add_lens_to(verb, {[](const LookRow& row) { return is_off_axis(row) || shapes_the_pupil(row); },
-                              "has no effect in lens table, whose columns are round discs in the middle of "
-                              "the picture; lens psf draws one disc with it"});
+    flags->add_lens_to(verb,
+                       {[](const LookRow& row) { return is_off_axis(row.field) || shapes_the_pupil(row); },
+                        "has no effect in lens table, whose columns are round discs in the middle of "
+                        "the picture; lens psf draws one disc with it"});
     FlagGroup(verb, "Table")
         .value("--defocus", "PX", "signed radii from minus this to plus this (default 64)", parse_positive,
                flags->table.largest_coc_px)
@@ -175,8 +178,8 @@ void add_volume(Verb& lens, Action& chosen) {
         flags->check(verb);
         if (flags->raw)
             throw UsageError("--raw has no effect in lens volume; lens psf and lens table have it");
-        refuse_on_axis(*flags, flags->field);
         flags->volume.field_x = flags->field.low, flags->volume.field_y = flags->field.high;
+        check_file(flags->file(flags->volume));
         chosen = [flags] { return make(*flags, flags->volume); };
     });
 }

@@ -1,0 +1,32 @@
+#include "petzval/look_check.h"
+
+#include "look/fields.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+namespace petzval {
+namespace {
+
+TEST(DiscFields, AreFieldsOfALook) {
+    const auto count = [](bool (*holds)(const std::string&)) {
+        return std::count_if(look::fields().begin(), look::fields().end(),
+                             [&](const look::Field& field) { return holds(field.path); });
+    };
+    EXPECT_EQ(count(is_off_axis), 7);
+    EXPECT_EQ(count(is_not_round), 11);
+    EXPECT_TRUE(is_off_axis("lens.coma"));
+    EXPECT_TRUE(is_not_round("lens.blades"));
+    EXPECT_FALSE(is_off_axis("lens.spherical") || is_not_round("lens.spherical"));
+}
+
+TEST(DiscFields, ChosenFieldsDifferFromTheirDefaults) {
+    Look look;
+    EXPECT_TRUE(chosen_fields(look).empty());
+    look.lens.coma = 1, look.lens.aperture.blades = 5;
+    EXPECT_EQ(chosen_fields(look), (std::vector<std::string>{"lens.blades", "lens.coma"}));
+}
+
+}  // namespace
+}  // namespace petzval
