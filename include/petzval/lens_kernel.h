@@ -134,8 +134,13 @@ struct LensAtlas {
     std::string lens;
 };
 
-// A tile grows until at most 2 % of the light falls outside. Errors: those of lens_point_spread();
-// InvalidArgument for settings out of range; Cancelled.
+// Errors: InvalidArgument for settings out of range, and for a pupil that is not round with several zones:
+// shaders turn the discs of a zone about the middle of the picture.
+PETZVAL_API Status check(const LensAtlasSettings& settings, const LensChoice& lens);
+// Size of the texels. Requires: zones in range.
+PETZVAL_API std::size_t lens_atlas_bytes(const LensAtlasSettings& settings);
+// A tile grows until at most 2 % of the light falls outside. Errors: those of check() and
+// lens_point_spread(); InvalidArgument for pixels that are not square; Cancelled.
 PETZVAL_API Result<LensAtlas> lens_atlas(const Lens& lens, const LensMount& mount,
                                          const LensAtlasSettings& settings = {});
 // Largest side, in pixels, of the kernels that lens_atlas() draws for its tiles; an upper bound. Errors:

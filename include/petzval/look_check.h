@@ -28,8 +28,6 @@ PETZVAL_API LookCheck check(const Look& look, const std::vector<std::string>& sa
 PETZVAL_API std::vector<std::string> chosen_fields(const Look& look);
 // True for the path of a field that shows only away from the middle of the picture, such as lens.coma.
 PETZVAL_API bool is_off_axis(const std::string& field);
-// True for the path of a field whose discs are not round, such as lens.blades.
-PETZVAL_API bool is_not_round(const std::string& field);
 
 // LookCheck::idle of a look from a file, one line for all fields that have no effect for the same reason:
 // "FILE: lens.blades and lens.wave have no effect with engine gaussian". `file` begins each line.

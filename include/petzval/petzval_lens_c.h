@@ -103,6 +103,23 @@ PETZVAL_C_API petzval_status petzval_lens_texture(const petzval_lens* lens, cons
                                                   const petzval_texture* texture, const petzval_pixels* out,
                                                   double* coc_radius_px, int* used_rows);
 
+/* Discs of a lens by place in the frame and by radius, as one texture for shaders.
+ * docs/reference/lens-atlas.md describes the texels and their header. */
+typedef struct petzval_atlas {
+    size_t size;
+    double largest_coc_px; /* signed radii from minus this to plus this; 0: 64 */
+    int zones;             /* rings of the frame from its middle to its corners, 1…64; 0: 5 */
+} petzval_atlas;
+
+/* Finds the size of the texels, without making them. The atlas may be null. */
+PETZVAL_C_API petzval_status petzval_lens_atlas_bytes(const petzval_atlas* atlas, size_t* bytes);
+/* Writes the texels, the content of atlas.bin, into byte_count bytes (at least petzval_lens_atlas_bytes()),
+ * and their header, the content of atlas.json. A pupil that is not round needs 1 zone, and pixels must be
+ * square. mount and atlas may be null. */
+PETZVAL_C_API petzval_status petzval_lens_atlas(const petzval_lens* lens, const petzval_lens_mount* mount,
+                                                const petzval_atlas* atlas, void* texels, size_t byte_count,
+                                                petzval_text** header);
+
 #ifdef __cplusplus
 }
 #endif

@@ -248,6 +248,14 @@ class petzval_texture(Structure):
     ]
 
 
+class petzval_atlas(Structure):
+    _fields_ = [
+        ("size", c_size_t),
+        ("largest_coc_px", c_double),
+        ("zones", c_int),
+    ]
+
+
 class petzval_codes(Structure):
     _fields_ = [
         ("size", c_size_t),
@@ -344,6 +352,9 @@ PROTOTYPES = {
         POINTER(petzval_texture), POINTER(c_int)]),
     "petzval_lens_texture": (c_int, [POINTER(petzval_lens), POINTER(petzval_lens_mount),
         POINTER(petzval_texture), POINTER(petzval_pixels), POINTER(c_double), POINTER(c_int)]),
+    "petzval_lens_atlas_bytes": (c_int, [POINTER(petzval_atlas), POINTER(c_size_t)]),
+    "petzval_lens_atlas": (c_int, [POINTER(petzval_lens), POINTER(petzval_lens_mount), POINTER(petzval_atlas),
+        c_void_p, c_size_t, POINTER(POINTER(petzval_text))]),
     "petzval_defocus_stage": (c_int, [POINTER(petzval_session), c_char_p, POINTER(petzval_shot),
         POINTER(petzval_look), POINTER(petzval_control), POINTER(petzval_pixels),
         POINTER(POINTER(petzval_report))]),

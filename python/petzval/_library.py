@@ -67,13 +67,18 @@ def made(handle_type, name: str, *arguments):
     return handle
 
 
-def json_of(name: str, *arguments):
-    """JSON that a function leaves as a petzval_text: infinity is inf, unknown numbers are None."""
+def text_of(name: str, *arguments) -> str:
+    """JSON that a function leaves as a petzval_text, as it is written."""
     text = made(_declared.petzval_text, name, *arguments)
     try:
-        return json.loads(library().petzval_text_json(text))
+        return library().petzval_text_json(text).decode()
     finally:
         library().petzval_text_close(text)
+
+
+def json_of(name: str, *arguments):
+    """The same, read: infinity is inf, unknown numbers are None."""
+    return json.loads(text_of(name, *arguments))
 
 
 def names(function: str) -> list[str]:

@@ -5,7 +5,7 @@ import ctypes
 import os
 
 from . import _declared, errors
-from ._library import call, json_of, library, made, names, struct
+from ._library import call, json_of, library, made, names, struct, text_of
 from ._pixels import pixels_of
 from .arrays import Array
 from .camera import Camera
@@ -112,6 +112,21 @@ class Lens:
                  ctypes.byref(rows))
             del kept
         return texture.rows(0, rows.value), list(radii)
+
+    def atlas(self, largest_radius_px: float = 64, zones: int = 5, *, camera: Camera = OWN,
+              size: tuple[int, int] = (1920, 1080)) -> tuple[str, bytes]:
+        """Discs by place in the frame and by radius, for shaders: the content of atlas.json and of atlas.bin.
+
+        docs/reference/lens-atlas.md describes both. zones: rings from the middle of the frame to its corners. Raises
+        InvalidArgument for several zones of a lens whose pupil is not round.
+        """
+        asked = struct(_declared.petzval_atlas, largest_coc_px=largest_radius_px, zones=zones)
+        count = ctypes.c_size_t()
+        call("petzval_lens_atlas_bytes", ctypes.byref(asked), ctypes.byref(count))
+        texels = ctypes.create_string_buffer(count.value)
+        with _Mount(camera, size, 1) as mount:
+            header = text_of("petzval_lens_atlas", self._handle, mount, ctypes.byref(asked), texels, count)
+        return header, texels.raw
 
     def __del__(self) -> None:
         handle = getattr(self, "_handle", None)

@@ -4,7 +4,7 @@ from __future__ import annotations
 import ctypes
 import os
 from . import _declared, errors
-from ._library import call, json_of, library, made, names, struct
+from ._library import call, json_of, library, made, names, struct, text_of
 from ._pixels import pixels_of
 from .arrays import Array
 from .camera import Camera
@@ -56,6 +56,13 @@ class Lens:
         """All discs on the axis: (rows, columns, 4) float32, a disc's profile per column, and the columns' radii in px.
 
         Row v lies v / rows_per_px pixels from the middle of the disc.
+        """
+
+    def atlas(self, largest_radius_px: float=64, zones: int=5, *, camera: Camera=..., size: tuple[int, int]=(1920, 1080)) -> tuple[str, bytes]:
+        """Discs by place in the frame and by radius, for shaders: the content of atlas.json and of atlas.bin.
+
+        docs/reference/lens-atlas.md describes both. zones: rings from the middle of the frame to its corners. Raises
+        InvalidArgument for several zones of a lens whose pupil is not round.
         """
 
     def __repr__(self) -> str:

@@ -1,5 +1,6 @@
 // Discs of a lens behind the C door, written into a host's memory. Needs neither sessions nor devices nor
 // files.
+#include "petzval/lens_json.h"
 #include "petzval/lens_kernel.h"
 #include "petzval/petzval_c.h"
 
@@ -55,6 +56,14 @@ petzval_status write_texture(const BokehTexture& texture, bool view, const Colou
         for (int x = 0; x < made.width(); ++x) padded(x, y) = made(x, y);
     write_pixels(padded, into);
     return PETZVAL_OK;
+}
+
+LensAtlasSettings settings_of(const petzval_atlas* given) {
+    const petzval_atlas a = c::taken(given);
+    LensAtlasSettings settings;
+    if (a.largest_coc_px != 0) settings.largest_coc_px = a.largest_coc_px;
+    if (a.zones != 0) settings.zones = a.zones;
+    return settings;
 }
 
 }  // namespace
@@ -123,5 +132,39 @@ petzval_status petzval_lens_texture(const petzval_lens* lens, const petzval_lens
         if (coc_radius_px) std::copy(made->coc_radius_px.begin(), made->coc_radius_px.end(), coc_radius_px);
         if (used_rows) *used_rows = made->energy.height();
         return status;
+    });
+}
+
+petzval_status petzval_lens_atlas_bytes(const petzval_atlas* atlas, size_t* bytes) {
+    if (!bytes) return missing("bytes");
+    const LensAtlasSettings settings = settings_of(atlas);
+    return guarded([&] {
+        if (const Status fine = check(settings, {}); !fine) return fail(fine.error());
+        *bytes = lens_atlas_bytes(settings);
+        return PETZVAL_OK;
+    });
+}
+
+petzval_status petzval_lens_atlas(const petzval_lens* lens, const petzval_lens_mount* mount,
+                                  const petzval_atlas* atlas, void* texels, size_t byte_count,
+                                  petzval_text** header) {
+    if (!header) return missing("header");
+    *header = nullptr;
+    if (!lens) return missing("lens");
+    if (!texels) return missing("texels");
+    return guarded([&] {
+        const auto mounted = c::mount_of(mount, lens->lens);
+        if (!mounted) return fail(mounted.error());
+        const LensAtlasSettings settings = settings_of(atlas);
+        if (const Status fine = check(settings, lens->lens.choice()); !fine) return fail(fine.error());
+        if (byte_count < lens_atlas_bytes(settings))
+            return fail(PETZVAL_INVALID_ARGUMENT, "byte_count is " + std::to_string(byte_count) +
+                                                      "; this atlas needs " +
+                                                      std::to_string(lens_atlas_bytes(settings)));
+        const auto made = lens_atlas(lens->lens, *mounted, settings);
+        if (!made) return fail(made.error());
+        *header = new petzval_text{lens_atlas_json(*made, lens->lens.name(), *mounted)};
+        std::memcpy(texels, made->texels.data(), made->texels.size());
+        return PETZVAL_OK;
     });
 }

@@ -95,7 +95,7 @@ LensAtlas empty_atlas(const LensAtlasSettings& settings) {
     LensAtlas atlas;
     atlas.width = kRadii * kSide;
     atlas.height = settings.zones * kSide;
-    atlas.texels.resize(4 * std::size_t(atlas.width) * std::size_t(atlas.height));
+    atlas.texels.resize(lens_atlas_bytes(settings));
     for (int radius = 0; radius < kRadii; ++radius)
         atlas.radii_px.push_back(tile_radius_px(radius, settings));
     for (int zone = 0; zone < settings.zones; ++zone)
@@ -105,13 +105,42 @@ LensAtlas empty_atlas(const LensAtlasSettings& settings) {
     return atlas;
 }
 
+// The field that makes the pupil of a lens not round; null if it is round.
+const char* not_round(const LensChoice& lens) {
+    if (lens.aperture.blades != 0) return "lens.blades";
+    if (lens.aperture.squeeze != 1) return "lens.squeeze";
+    if (lens.barn_doors != BarnDoors{}) return "lens.barn_doors";
+    if (lens.texture.image) return "lens.aperture_image";
+    if (lens.kernel_images != KernelImages{}) return "lens.kernel_image";
+    if (lens.texture.dust != 0) return "lens.dust";
+    return lens.texture.scratches != 0 ? "lens.scratches" : nullptr;
+}
+
+Error refused(const std::string& field, const std::string& why) {
+    return {ErrorCode::InvalidArgument, field + why, field};
+}
+
 }  // namespace
 
-Result<LensAtlas> lens_atlas(const Lens& lens, const LensMount& mount, const LensAtlasSettings& settings) {
+Status check(const LensAtlasSettings& settings, const LensChoice& lens) {
     if (settings.zones < 1 || settings.zones > 64)
-        return Error{ErrorCode::InvalidArgument, "atlas.zones must be 1 to 64"};
+        return refused("atlas.zones", " " + std::to_string(settings.zones) + ": must be 1 to 64");
     if (!(settings.largest_coc_px > 0 && std::isfinite(settings.largest_coc_px)))
-        return Error{ErrorCode::InvalidArgument, "atlas.largest_coc_px must be above 0"};
+        return refused("atlas.largest_coc_px", " must be above 0");
+    const char* const field = settings.zones > 1 ? not_round(lens) : nullptr;
+    if (!field) return Done{};
+    return refused(field,
+                   " makes a pupil that is not round, and zones are rings that shaders turn about the "
+                   "middle; give atlas.zones 1");
+}
+
+std::size_t lens_atlas_bytes(const LensAtlasSettings& settings) {
+    return std::size_t(4 * kSide * kSide * kRadii) * std::size_t(settings.zones);
+}
+
+Result<LensAtlas> lens_atlas(const Lens& lens, const LensMount& mount, const LensAtlasSettings& settings) {
+    if (const Status fine = check(settings, lens.choice()); !fine) return fine.error();
+    if (mount.pixel_aspect != 1) return refused("mount.pixel_aspect", " must be 1: tiles are squares");
     LensAtlas atlas = empty_atlas(settings);
     const auto go_on = [&](double done) { return !settings.progress || settings.progress(done); };
     for (int zone = 0; zone < settings.zones; ++zone)

@@ -89,6 +89,35 @@ TEST(LensAtlas, KnowsTheSideOfItsLargestKernel) {
     }
 }
 
+TEST(LensAtlas, OfRingsIsOfARoundPupilAndSquarePixels) {
+    const auto refused = [](const auto& set, int zones) {
+        LensChoice choice;
+        set(choice);
+        const Status fine = check(LensAtlasSettings{.zones = zones}, choice);
+        return fine ? "" : fine.error().field;
+    };
+    const auto blades = [](LensChoice& c) { c.aperture.blades = 5; };
+    EXPECT_EQ(refused(blades, 2), "lens.blades");
+    EXPECT_EQ(refused(blades, 1), "");
+    EXPECT_EQ(refused([](LensChoice& c) { c.aperture.squeeze = 2; }, 2), "lens.squeeze");
+    EXPECT_EQ(refused([](LensChoice& c) { c.barn_doors.top = 1; }, 2), "lens.barn_doors");
+    EXPECT_EQ(refused([](LensChoice& c) { c.texture.image = std::make_shared<Plane>(3, 3); }, 2),
+              "lens.aperture_image");
+    EXPECT_EQ(refused([](LensChoice& c) { c.kernel_images.near = std::make_shared<Picture>(3, 3); }, 2),
+              "lens.kernel_image");
+    EXPECT_EQ(refused([](LensChoice& c) { c.texture.dust = 0.5; }, 2), "lens.dust");
+    EXPECT_EQ(refused([](LensChoice& c) { c.texture.scratches = 0.5; }, 2), "lens.scratches");
+    EXPECT_EQ(refused([](LensChoice& c) { c.cats_eye = 0.5, c.texture.onion_rings = 1; }, 64), "");
+    EXPECT_EQ(refused([](LensChoice&) {}, 65), "atlas.zones");
+
+    LensChoice choice;
+    blades(choice);
+    EXPECT_EQ(lens_atlas(Lens::open(choice).value(), mount()).error().field, "lens.blades");
+    LensMount wide = mount();
+    wide.pixel_aspect = 2;
+    EXPECT_EQ(lens_atlas(Lens::open({}).value(), wide).error().field, "mount.pixel_aspect");
+}
+
 TEST(LensPointSpread, RawKeepsTheNegativesOfSaturatedFringes) {
     const auto least = [](bool raw) {
         float low = 0;

@@ -195,14 +195,11 @@ std::vector<std::string> outputs_of(const LensAtlasFiles& files) {
 }
 
 Status check(const LensAtlasFiles& files) {
-    const int zones = files.atlas.zones;
-    if (zones < 1 || zones > 64) return refused("atlas.zones", std::to_string(zones) + ": must be 1 to 64");
-    const std::string turned = zones > 1 ? first_chosen(files.look, is_not_round) : "";
-    if (!turned.empty())
-        return refused(turned,
-                       "makes a pupil that is not round, and zones are rings that shaders turn about the "
-                       "middle; give atlas.zones 1");
-    const std::string idle = zones == 1 ? first_chosen(files.look, is_off_axis) : "";
+    LensChoice lens = files.look.lens;  // its images are read later
+    if (!files.look.aperture_image.empty()) lens.texture.image = std::make_shared<const Plane>();
+    if (!files.look.kernel_image_far.empty()) lens.kernel_images.far = std::make_shared<const Picture>();
+    if (const Status fine = check(files.atlas, lens); !fine) return fine.error();
+    const std::string idle = files.atlas.zones == 1 ? first_chosen(files.look, is_off_axis) : "";
     if (idle.empty()) return Done{};
     return refused(idle, "has no effect with atlas.zones 1, the middle of the picture");
 }

@@ -116,13 +116,12 @@ Status bokeh_volume_fits(const BokehVolumeSettings& settings, std::size_t limit_
 // Measured (docs/results/memory.md).
 Status lens_atlas_fits(const Lens& lens, const LensMount& mount, const LensAtlasSettings& settings,
                        std::size_t limit_bytes) {
-    constexpr std::size_t kBeside = std::size_t(5) << 19, kSide = kAtlasTileSide;
+    constexpr std::size_t kBeside = std::size_t(5) << 19;
     const auto disc = lens_atlas_disc_px(lens, mount, settings);
     if (!disc) return disc.error();
     const auto zones = std::size_t(settings.zones), whole = std::size_t(*disc);
     return fits_memory("an atlas of " + std::to_string(zones) + " zones",
-                       kBeside + 4 * kSide * kSide * kAtlasRadii * zones + kTileKernelBytes * whole * whole,
-                       limit_bytes);
+                       kBeside + lens_atlas_bytes(settings) + kTileKernelBytes * whole * whole, limit_bytes);
 }
 
 Status lens_report_fits(std::size_t limit_bytes) {

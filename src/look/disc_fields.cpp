@@ -1,4 +1,4 @@
-// Fields by the discs that show them: only those away from the middle, and those that are not round.
+// Fields that a look chose, and those that show only away from the middle of the picture.
 #include "petzval/look_check.h"
 
 #include "look/fields.h"
@@ -25,14 +25,6 @@ bool is_off_axis(const std::string& field) {
                                                              "lens.coma",
                                                              "lens.astigmatism",
                                                              "lens.distortion"};
-    return std::find(kFields.begin(), kFields.end(), field) != kFields.end();
-}
-
-bool is_not_round(const std::string& field) {
-    static constexpr std::array<std::string_view, 11> kFields{
-        "lens.blades",  "lens.blade_rotation_deg", "lens.blade_curvature", "lens.iris_open",
-        "lens.squeeze", "lens.barn_doors",         "lens.aperture_image",  "lens.kernel_image",
-        "lens.dust",    "lens.scratches",          "lens.texture_seed"};
     return std::find(kFields.begin(), kFields.end(), field) != kFields.end();
 }
 

@@ -141,6 +141,54 @@ static void test_a_texture_holds_all_discs(void) {
     petzval_lens_close(lens);
 }
 
+static void test_an_atlas_lands_in_the_callers_bytes(void) {
+    enum { BYTES = 4 * 31 * 31 * 14 * 2 };
+    static unsigned char texels[BYTES];
+    petzval_atlas atlas = {0};
+    petzval_lens* lens = NULL;
+    petzval_text* header = NULL;
+    size_t bytes = 0;
+    atlas.size = sizeof atlas;
+    expect(petzval_lens_atlas_bytes(NULL, &bytes) == PETZVAL_OK && 2 * bytes == 5 * (size_t)BYTES, "five zones");
+    atlas.zones = 2;
+    atlas.largest_coc_px = 9;
+    expect(petzval_lens_atlas_bytes(&atlas, &bytes) == PETZVAL_OK && bytes == BYTES, "two zones");
+    expect(petzval_lens_open("doublet", &lens) == PETZVAL_OK, "a lens of curves");
+    expect(petzval_lens_atlas(lens, NULL, &atlas, texels, BYTES - 1, &header) == PETZVAL_INVALID_ARGUMENT &&
+               strstr(petzval_error_text(), "byte_count") && header == NULL,
+           "too few bytes are refused");
+    expect(petzval_lens_atlas(lens, NULL, &atlas, texels, BYTES, &header) == PETZVAL_OK, "an atlas");
+    expect(strstr(petzval_text_json(header), "\"radii_px\":[-9.0,") != NULL, "its header");
+    expect(texels[BYTES - 1] >> 3 <= 24 && texels[4 * (15 * 14 * 31 + 15) + 3] >> 3 > 10, "its light");
+    petzval_text_close(header);
+    atlas.zones = 65;
+    expect(petzval_lens_atlas_bytes(&atlas, &bytes) == PETZVAL_INVALID_ARGUMENT, "65 zones are refused");
+    petzval_lens_close(lens);
+}
+
+static void test_an_atlas_of_rings_is_of_a_round_pupil(void) {
+    static unsigned char texels[4 * 31 * 31 * 14 * 5];
+    petzval_lens_mount mount = {0};
+    petzval_lens *lens = NULL, *bladed = NULL;
+    petzval_look* look = NULL;
+    petzval_text* header = NULL;
+    mount.size = sizeof mount;
+    mount.pixel_aspect = 2;
+    expect(petzval_lens_open("ideal", &lens) == PETZVAL_OK && petzval_look_new(&look) == PETZVAL_OK &&
+               petzval_look_set(look, "lens.blades", "5") == PETZVAL_OK &&
+               petzval_lens_with(lens, look, &bladed) == PETZVAL_OK,
+           "five blades");
+    expect(petzval_lens_atlas(bladed, NULL, NULL, texels, sizeof texels, &header) == PETZVAL_INVALID_ARGUMENT &&
+               strstr(petzval_error_text(), "lens.blades") && header == NULL,
+           "blades are refused by name");
+    expect(petzval_lens_atlas(lens, &mount, NULL, texels, sizeof texels, &header) == PETZVAL_INVALID_ARGUMENT &&
+               strstr(petzval_error_text(), "mount.pixel_aspect"),
+           "so are pixels that are not square");
+    petzval_look_close(look);
+    petzval_lens_close(bladed);
+    petzval_lens_close(lens);
+}
+
 static char* content_of(const char* path, size_t* size) {
     FILE* file = fopen(path, "rb");
     char* bytes = malloc(1 << 20);
@@ -178,6 +226,8 @@ int main(int count, char** arguments) {
     test_a_look_shapes_a_lens();
     test_facts_section_and_curves_are_json();
     test_a_texture_holds_all_discs();
+    test_an_atlas_lands_in_the_callers_bytes();
+    test_an_atlas_of_rings_is_of_a_round_pupil();
     test_a_lens_of_memory_is_the_lens_of_the_file(arguments[1]);
     printf("%d failures\n", failures);
     return failures > 0;

@@ -52,6 +52,15 @@ class Files(unittest.TestCase):
         channels["matte"] = pictures.plane(width, height, lambda x, y: float(is_near(x, y)))
         return pictures.write_exr(str(self.folder / f"in.{frame:04}.exr"), channels)
 
+    def test_an_atlas_is_that_of_the_command_line(self):
+        for words, zones in ((("--cats-eye", 0.5), 2), ((), 5)):
+            lens = petzval.Lens("doublet").used(cats_eye=0.5) if words else petzval.Lens("doublet")
+            self.run_program("lens", "atlas", "doublet", *words, "--zones", zones, "--defocus", 20, "--width", 960, "-o",
+                             self.folder / "atlas", "--overwrite")
+            header, texels = lens.atlas(20, zones, size=(960, 540))
+            self.assertEqual(header + "\n", (self.folder / "atlas/atlas.json").read_text())
+            self.assertEqual(texels, (self.folder / "atlas/atlas.bin").read_bytes())
+
     def test_c_python_and_the_command_line_give_the_same_bits(self):
         """One shot with layers, a lens file and a track of focus distances."""
         focus_m = {1: 1.0, 2: 1.6, 3: 3.2}

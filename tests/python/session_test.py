@@ -165,6 +165,13 @@ class Lenses(unittest.TestCase):
         texture, radii = petzval.Lens("doublet").texture(16, 8, threads=1)
         self.assertEqual((texture.shape[1], radii[0], radii[-1]), (16, -8, 8))
 
+    def test_an_atlas_of_rings_is_of_a_round_pupil(self):
+        lens = petzval.Lens("doublet").used(blades=5)
+        header, texels = lens.atlas(8, zones=1)
+        self.assertEqual((json.loads(header)["zones"], len(texels)), ([0], 4 * 31 * 31 * 14))
+        with self.assertRaisesRegex(petzval.InvalidArgument, "lens.blades"):
+            lens.atlas()
+
     def test_text_and_file_are_one_lens(self):
         by_text = petzval.Lens.from_text(LENS_FILE.read_bytes(), "mine")
         np.testing.assert_array_equal(np.asarray(by_text.disc(-6)), np.asarray(petzval.Lens(LENS_FILE).disc(-6)))
