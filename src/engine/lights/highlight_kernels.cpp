@@ -32,8 +32,8 @@ kernel::PointSpread of_square(const kernel::PointSpread& point, int size) {
 
 // Steps of radius and place that nobody sees. Those of a kernel as wide as its blur are constants. A lens
 // whose halo is wide, which is how far it spreads a point in focus, takes long to draw, and changes as little
-// from one of the larger steps to the next.
-kernel::BankOptions steps(const EngineView& input, bool fine) {
+// from one of the larger steps to the next. From place to place it is the rim that moves.
+kernel::BankOptions steps(const EngineView& input, Seen seen) {
     const Quality quality = input.options.quality;
     const double share = quality == Quality::Draft ? 8 : quality == Quality::Final ? 1 : 2;
     const double halo_px = share * input.lens.level(0).reach_px(0);
@@ -41,16 +41,12 @@ kernel::BankOptions steps(const EngineView& input, bool fine) {
                                 .rows = 18,
                                 .aspect = double(input.lens.frame.width()) / input.lens.frame.height(),
                                 .max_bytes = kPointBytes};
-    if (fine) {
-        options.relative_step = 0.001;
-        options.least_step_px = std::max(0.02, 0.0005 * halo_px);
-        // Bright discs: final quality gives each the kernel of its own place.
-        options.largest_rim_step_px = std::max(quality == Quality::Final ? 0.01 : 0.1, 0.002 * halo_px);
-    } else {
-        options.relative_step = 0.005;
-        options.least_step_px = std::max(0.0625, 0.005 * halo_px);
-        options.largest_rim_step_px = std::max(0.5, 0.02 * halo_px);
-    }
+    const bool disc = seen != Seen::Nothing, rim = seen == Seen::DiscAndRim;
+    options.relative_step = disc ? 0.001 : 0.005;
+    options.least_step_px = disc ? std::max(0.02, 0.0005 * halo_px) : std::max(0.0625, 0.005 * halo_px);
+    // Bright discs: final quality gives each the kernel of its own place.
+    options.largest_rim_step_px = rim ? std::max(quality == Quality::Final ? 0.01 : 0.1, 0.002 * halo_px)
+                                      : std::max(0.5, 0.02 * halo_px);
     return options;
 }
 
@@ -58,23 +54,26 @@ kernel::BankOptions steps(const EngineView& input, bool fine) {
 
 HighlightKernels::HighlightKernels(const EngineView& input)
     : KernelSource("highlights", device::KernelUse::ByPixel),
-      points_(input.lens.level(0), steps(input, false)),
-      fine_points_(input.lens.level(0), steps(input, true)),
+      points_{kernel::KernelBank(input.lens.level(0), steps(input, Seen::Nothing)),
+              kernel::KernelBank(input.lens.level(0), steps(input, Seen::Disc)),
+              kernel::KernelBank(input.lens.level(0), steps(input, Seen::DiscAndRim))},
       squares_(kSquareBytes) {}
 
-device::KernelAsk HighlightKernels::ask(const Highlight& h, kernel::FieldPosition field, bool fine) const {
+device::KernelAsk HighlightKernels::ask(const Highlight& h, kernel::FieldPosition field, Seen seen) const {
     int size = 0;
     while (kSizes[size] < h.size) ++size;
-    const kernel::KernelBank::Place place = points(fine).place(double(h.coc_px), field);
-    return {.level = 0, .zone = place.cell, .step = place.step, .piece = 2 * size + (fine ? 1 : 0)};
+    const kernel::KernelBank::Place place = points_[std::size_t(seen)].place(double(h.coc_px), field);
+    return {.level = 0, .zone = place.cell, .step = place.step, .piece = 3 * size + int(seen)};
 }
 
 std::vector<device::KernelSource::Made> HighlightKernels::make(
     std::span<const device::KernelAsk> asks) const {
     std::vector<Made> made;
     for (const device::KernelAsk& ask : asks) {
-        const int size = kSizes[ask.piece / 2];
-        const auto of_point = [&] { return points(ask.piece % 2 == 1).kernel({ask.step, ask.zone}); };
+        const int size = kSizes[ask.piece / 3];
+        const auto of_point = [&] {
+            return points_[std::size_t(ask.piece % 3)].kernel({ask.step, ask.zone});
+        };
         made.push_back(
             {size == 1 ? of_point() : squares_.get(ask, [&] { return of_square(*of_point(), size); })});
     }
@@ -82,7 +81,8 @@ std::vector<device::KernelSource::Made> HighlightKernels::make(
 }
 
 std::size_t HighlightKernels::bytes() const {
-    return sizeof(*this) + points_.bytes_held() + fine_points_.bytes_held() + squares_.bytes();
+    return sizeof(*this) + points_[0].bytes_held() + points_[1].bytes_held() + points_[2].bytes_held() +
+           squares_.bytes();
 }
 
 }  // namespace petzval::engine

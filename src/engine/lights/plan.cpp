@@ -79,9 +79,13 @@ void LightsPlanner::find_viewpoints() {
 }
 
 device::KernelAsk LightsPlanner::ask(const Highlight& h) const {
-    const float on_disc =
-        luminance(h.colour) * float(h.size * h.size) / (float(M_PI) * h.coc_px * h.coc_px + 1);
-    return kernels_.ask(h, input_.lens.field_at(h.x, h.y), on_disc > bright_disc_);
+    const float light = luminance(h.colour) * float(h.size * h.size);
+    const auto bright_on = [&](float radius_px) {
+        return light > bright_disc_ * (float(M_PI) * radius_px * radius_px + 1);
+    };
+    const bool rim = bright_on(float(input_.lens.level(0).reach_px(double(h.coc_px))));
+    const Seen seen = rim ? Seen::DiscAndRim : bright_on(h.coc_px) ? Seen::Disc : Seen::Nothing;
+    return kernels_.ask(h, input_.lens.field_at(h.x, h.y), seen);
 }
 
 bool LightsPlanner::next(LightsPlan& plan) {

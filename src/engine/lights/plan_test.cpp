@@ -79,6 +79,15 @@ TEST(LightsPlan, LampsNearEachOtherShareAKernelWithAWideHalo) {
     }
 }
 
+TEST(LightsPlan, PlacesOfABrightDiscAreFineOnlyIfItsRimIsBrightToo) {
+    for (const bool wide : {false, true}) {
+        Lamps lamps(Quality::Standard, wide ? "singlet" : "ideal");
+        lamps.add(100, 100, 5, 10);
+        lamps.add(107, 100, 5, 10);
+        EXPECT_EQ(lamps.plans()[0].kernels.asks.size(), wide ? 1U : 2U);
+    }
+}
+
 TEST(LightsPlan, WideHalosMakeBatchesSmall) {
     for (const bool wide : {false, true}) {
         Lamps lamps(Quality::Standard, wide ? "singlet" : "ideal");
