@@ -50,6 +50,11 @@ public:
     }
     const std::vector<Point>& points() const { return points_; }
     const std::vector<Halves>& light() const { return light_; }
+    double light_of_all() const {
+        double sum = 0;
+        for (const Halves& cell : light_) sum += cell.outer + cell.inner;
+        return sum;
+    }
 
 private:
     static double light(const MeshPupil& pupil, Point a, Point b, Point c) {
@@ -64,11 +69,14 @@ private:
     std::vector<Halves> light_;
 };
 
-// The image of the mesh in one wavelength, drawn into a buffer.
+// The image of the mesh in one wavelength, drawn into a buffer. Cells need not land within its extent.
 class Drawing {
 public:
-    Drawing(const Mesh& mesh, CoverageBuffer<double>& buffer)
-        : mesh_(mesh), buffer_(buffer), density_(mesh.light().size()) {}
+    Drawing(const Mesh& mesh, CoverageBuffer<double>& buffer, bool is_whole)
+        : mesh_(mesh), buffer_(buffer), is_whole_(is_whole), density_(mesh.light().size()) {
+        const Rect& e = buffer.extent();
+        low_ = {e.x0 - 0.5, e.y0 - 0.5}, high_ = {e.x1 - 0.5, e.y1 - 0.5};
+    }
 
     void draw(const Point* landed) {
         landed_ = landed;
@@ -92,8 +100,32 @@ public:
 private:
     static constexpr double kLeastArea = 1e-9;  // px^2; above, doubles lose nothing to the division
 
+    // Covers what is right of it: beside the buffer, the border stands for the edge.
     void draw_edge(Point from, Point to, double density) {
-        if (density != 0) buffer_.add_edge(from, to, density);
+        if (density == 0) return;
+        if (is_whole_) return buffer_.add_edge(from, to, density);
+        if (from.y > to.y) std::swap(from, to), density = -density;
+        if (to.y <= low_.y || from.y >= high_.y) return;
+        const Point first = from, along = to - from;
+        const auto at_row = [&](double y) { return Point{first.x + (y - first.y) / along.y * along.x, y}; };
+        if (from.y < low_.y) from = at_row(low_.y);
+        if (to.y > high_.y) to = at_row(high_.y);
+        const auto draw_up_to = [&](Point next) {
+            const auto beside = [&](Point p) { return Point{std::clamp(p.x, low_.x, high_.x), p.y}; };
+            buffer_.add_edge(beside(from), beside(next), density);
+            from = next;
+        };
+        const bool rightwards = along.x > 0;
+        for (const double border : {rightwards ? low_.x : high_.x, rightwards ? high_.x : low_.x})
+            if ((from.x < border) != (to.x < border) && along.x != 0)
+                draw_up_to({border, first.y + (border - first.x) / along.x * along.y});
+        draw_up_to(to);
+    }
+
+    bool is_outside(Point a, Point b, Point c, Point d) const {
+        if (is_whole_) return false;
+        return std::max({a.x, b.x, c.x, d.x}) <= low_.x || std::min({a.x, b.x, c.x, d.x}) >= high_.x ||
+               std::max({a.y, b.y, c.y, d.y}) <= low_.y || std::min({a.y, b.y, c.y, d.y}) >= high_.y;
     }
 
     void find_densities() {
@@ -102,8 +134,12 @@ private:
                 const Halves& light = mesh_.light()[mesh_.at(j, k)];
                 const Point a = landed_[mesh_.at(j, k)], b = landed_[mesh_.at(j, k + 1)];
                 const Point c = landed_[mesh_.at(j + 1, k + 1)], d = landed_[mesh_.at(j + 1, k)];
-                const double outer = signed_area(a, d, c), inner = signed_area(a, c, b);
                 Halves& density = density_[mesh_.at(j, k)];
+                if (is_outside(a, b, c, d)) {
+                    density = {};
+                    continue;
+                }
+                const double outer = signed_area(a, d, c), inner = signed_area(a, c, b);
                 if (outer * inner >= 0 && std::abs(outer + inner) >= kLeastArea) {
                     density.outer = density.inner = (light.outer + light.inner) / (outer + inner);
                 } else {
@@ -117,12 +153,15 @@ private:
     // without area, as on a caustic or at a perfect focus, leaves its light in the pixel where it lies.
     double spread(double light, double area_px, Point a, Point b, Point c) {
         if (std::abs(area_px) >= kLeastArea) return light / area_px;
-        if (light != 0) buffer_.add_point((1.0 / 3) * (a + b + c), light);
+        const Point middle = (1.0 / 3) * (a + b + c);
+        if (light != 0 && !is_outside(middle, middle, middle, middle)) buffer_.add_point(middle, light);
         return 0;
     }
 
     const Mesh& mesh_;
     CoverageBuffer<double>& buffer_;
+    bool is_whole_;     // everything lands within the buffer
+    Point low_, high_;  // borders of the buffer
     const Point* landed_ = nullptr;
     std::vector<Halves> density_;
 };
@@ -136,40 +175,76 @@ Rect extent_of(const std::vector<Point>& points) {
     return pixels_touched(low, high);
 }
 
-}  // namespace
-
-PointSpread mesh_kernel(const MeshPupil& pupil, const std::vector<MeshBand>& bands) {
-    const Mesh mesh(pupil);
-    const std::size_t count = mesh.points().size();
-    std::vector<Point> landed(count * bands.size());
-    for (std::size_t i = 0; i < bands.size(); ++i) {
-        check_cancelled();
-        bands[i].land(mesh.points(), &landed[i * count]);
+PointSpread spread_of(const Image<Light>& sum, const Rect& extent, const Light& whole) {
+    PointSpread spread{extent, Image<Rgba>::uninitialised(extent.width(), extent.height()), false};
+    // Clears rounding errors where nothing landed, against light of a few units in all.
+    const auto cleared = [](double light, double of) {
+        return std::abs(light) < 1e-13 ? 0.0f : float(light / of);
+    };
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+        const Light& l = sum.pixels()[i];
+        spread.weights.pixels()[i] = {cleared(l.r, whole.r), cleared(l.g, whole.g), cleared(l.b, whole.b), 0};
     }
+    return spread;
+}
 
-    const Rect extent = extent_of(landed);
-    CoverageBuffer<double> buffer(extent);
-    Drawing drawing(mesh, buffer);
-    Image<Light> sum(extent.width(), extent.height());
-    for (std::size_t i = 0; i < bands.size(); ++i) {
-        drawing.draw(&landed[i * count]);
-        for (int y = 0; y < extent.height(); ++y) {
+// The mesh and where it lands in each band.
+class Landed {
+public:
+    Landed(const MeshPupil& pupil, const std::vector<MeshBand>& bands) : mesh_(pupil), bands_(bands) {
+        const std::size_t count = mesh_.points().size();
+        points_.resize(count * bands.size());
+        for (std::size_t i = 0; i < bands.size(); ++i) {
             check_cancelled();
-            buffer.drain_row(
-                y, [&, row = sum.row(y)](int x, double covered) { row[x] += covered * bands[i].weight; });
+            bands[i].land(mesh_.points(), &points_[i * count]);
         }
     }
 
-    PointSpread spread{extent, Image<Rgba>::uninitialised(extent.width(), extent.height()), false};
-    // Clears rounding errors where nothing landed, against light of a few units in all.
-    const auto cleared = [](double light) { return std::abs(light) < 1e-13 ? 0.0f : float(light); };
-    for (std::size_t i = 0; i < sum.size(); ++i) {
-        const Light& l = sum.pixels()[i];
-        spread.weights.pixels()[i] = {cleared(l.r), cleared(l.g), cleared(l.b), 0};
+    Rect extent() const { return extent_of(points_); }
+
+    Image<Light> drawn(const Rect& extent) const {
+        CoverageBuffer<double> buffer(extent);
+        Drawing drawing(mesh_, buffer, extent == extent_of(points_));
+        Image<Light> sum(extent.width(), extent.height());
+        for (std::size_t i = 0; i < bands_.size(); ++i) {
+            drawing.draw(&points_[i * mesh_.points().size()]);
+            for (int y = 0; y < extent.height(); ++y) {
+                check_cancelled();
+                buffer.drain_row(y, [&, row = sum.row(y)](int x, double covered) {
+                    row[x] += covered * bands_[i].weight;
+                });
+            }
+        }
+        return sum;
     }
+
+    Light light() const {
+        Light sum;
+        for (const MeshBand& band : bands_) sum += mesh_.light_of_all() * band.weight;
+        return sum;
+    }
+
+private:
+    Mesh mesh_;
+    const std::vector<MeshBand>& bands_;
+    std::vector<Point> points_;
+};
+
+}  // namespace
+
+PointSpread mesh_kernel(const MeshPupil& pupil, const std::vector<MeshBand>& bands) {
+    const Landed landed(pupil, bands);
+    const Rect extent = landed.extent();
+    PointSpread spread = spread_of(landed.drawn(extent), extent, {1, 1, 1});
     trim(spread);
     normalise(spread);
     return spread;
+}
+
+PointSpread mesh_kernel(const MeshPupil& pupil, const std::vector<MeshBand>& bands, const Rect& window) {
+    const Landed landed(pupil, bands);
+    const Rect extent = landed.extent().intersected(window);
+    return spread_of(landed.drawn(extent), extent, landed.light());
 }
 
 int mesh_rings(double size_px) { return std::clamp(int(std::ceil(5 + std::pow(size_px, 0.8))), 6, 192); }

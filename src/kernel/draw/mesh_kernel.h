@@ -33,6 +33,9 @@ struct MeshBand {
 // Channels sum to 1; colours are not mapped.
 PointSpread mesh_kernel(const MeshPupil& pupil, const std::vector<MeshBand>& bands);
 
+// What of the same kernel lands within a window.
+PointSpread mesh_kernel(const MeshPupil& pupil, const std::vector<MeshBand>& bands, const Rect& window);
+
 // Resolution of the mesh for a kernel that reaches size_px: cells two pixels thick (three at 200 px), chords
 // 0.05 px off their arcs. Rings; the longest distance of a chord of the outline from its arc, and its longest
 // edge, pupil radii.

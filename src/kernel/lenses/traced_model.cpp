@@ -2,6 +2,7 @@
 
 #include "base/cancel.h"
 #include "kernel/draw/band_groups.h"
+#include "kernel/draw/halo.h"
 #include "kernel/draw/outline.h"
 #include "kernel/draw/ray_set.h"
 #include "kernel/lenses/parabola.h"
@@ -33,6 +34,8 @@ constexpr double kRayWidth =
 constexpr double kBandStepPx = 1, kNoColourPx = 0.02;
 constexpr double kSharpPathPx = 6;  // of rims over the spectrum; above, meshes may be coarser
 constexpr int kFewestBands = 7, kMostBands = 36;
+// A core that reaches farther than this fraction of its kernel is not worth a drawing without the rest.
+constexpr double kMostCore = 0.7;
 
 Error refuse(const std::string& message) { return {ErrorCode::InvalidArgument, message}; }
 
@@ -391,25 +394,31 @@ TracedModel::Fineness TracedModel::fineness(const Node& node, const std::vector<
     }
     // Rays inside the rim may land farther out than the rim.
     fine.size_px = std::max(fine.size_px, std::abs(coc_radius_px));
-    if (choice_.wavelengths > 0) {
-        fine.bands = choice_.wavelengths;
-    } else if (wavelength_nm_.size() >= 3 && fine.path_px >= kNoColourPx) {
-        fine.bands =
-            int(std::clamp(std::ceil(fine.path_px / kBandStepPx), double(kFewestBands), double(kMostBands)));
-    }
+    fine.bands = bands_for(fine.path_px);
     return fine;
 }
 
-PointSpread TracedModel::raw_point_spread(double coc_radius_px, FieldPosition field) const {
+int TracedModel::bands_for(double path_px) const {
+    if (choice_.wavelengths > 0) return choice_.wavelengths;
+    if (wavelength_nm_.size() < 3 || path_px < kNoColourPx) return 1;
+    return int(std::clamp(std::ceil(path_px / kBandStepPx), double(kFewestBands), double(kMostBands)));
+}
+
+// The kernel in cells, or what of it lands within a window.
+PointSpread TracedModel::drawn(double coc_radius_px, FieldPosition field, double cell_px,
+                               const Rect* window) const {
     const FieldAxis axis(field);
     const Node node = at(axis.size);
-    const Fineness fine = fineness(node, outline(node, axis, field, 1e-3), coc_radius_px);
+    Fineness fine = fineness(node, outline(node, axis, field, 1e-3), coc_radius_px);
+    fine = {fine.size_px / cell_px, fine.path_px / cell_px, bands_for(fine.path_px / cell_px)};
     const RayMap middle = map_at(node, kMiddle_nm);
-    // Colours side by side smear what a coarser mesh would show.
+    // Colours side by side smear what a coarser mesh would show, and arcs in a window are no longer than it.
     const double smear = std::clamp(fine.path_px / kSharpPathPx, 1.0, 8.0);
     const double size_px = fine.size_px / std::cbrt(smear), along_rim = std::cbrt(smear * smear);
-    MeshPupil pupil = mesh_pupil(pupil_, outline(node, axis, field, mesh_tolerance(fine.size_px / along_rim)),
-                                 size_px, (2 * fine.size_px - std::abs(coc_radius_px)) / along_rim);
+    const double farthest_px = window ? std::min(fine.size_px, double(window->width())) : fine.size_px;
+    const double bend_px = 2 * farthest_px - std::min(farthest_px, std::abs(coc_radius_px) / cell_px);
+    MeshPupil pupil = mesh_pupil(pupil_, outline(node, axis, field, mesh_tolerance(farthest_px / along_rim)),
+                                 size_px, bend_px / along_rim);
     pupil.density = [&](std::span<const Point> points, double* light) {
         values_at(middle.light, points, light);
         for (std::size_t i = 0; i < points.size(); ++i) light[i] = std::max(0.0, light[i]);
@@ -420,14 +429,38 @@ PointSpread TracedModel::raw_point_spread(double coc_radius_px, FieldPosition fi
         };
     std::vector<MeshBand> bands;
     for (const auto& [weight, landing_px] : colours_of(node, fine, coc_radius_px))
-        bands.push_back({weight, [this, px = landing_px, axis](std::span<const Point> points, Point* landed) {
-                             land(px, points, landed);
-                             for (std::size_t i = 0; i < points.size(); ++i) {
-                                 const Point image = axis.from_axis(landed[i]);
-                                 landed[i] = {image.x, image.y * mount_.pixel_aspect};
-                             }
-                         }});
-    return mesh_kernel(pupil, bands);
+        bands.push_back(
+            {weight, [this, cell_px, px = landing_px, axis](std::span<const Point> points, Point* landed) {
+                 land(px, points, landed);
+                 for (std::size_t i = 0; i < points.size(); ++i) {
+                     const Point image = axis.from_axis(landed[i]);
+                     landed[i] = {image.x / cell_px, image.y * mount_.pixel_aspect / cell_px};
+                 }
+             }});
+    return window ? mesh_kernel(pupil, bands, *window) : mesh_kernel(pupil, bands);
+}
+
+PointSpread TracedModel::spread(double coc_radius_px, FieldPosition field, Colours colours) const {
+    const FieldAxis axis(field);
+    const Node node = at(axis.size);
+    const Fineness fine = fineness(node, outline(node, axis, field, 1e-3), coc_radius_px);
+    const auto mapped = [&](PointSpread kernel) {
+        if (colours == Colours::Mapped) map_into_gamut(kernel);
+        return kernel;
+    };
+    const int cell = pupil_.has_texture() ? 1 : halo_cell_px(fine.size_px);
+    if (cell == 1) return mapped(drawn(coc_radius_px, field, 1, nullptr));
+    const PointSpread cells = mapped(drawn(coc_radius_px, field, cell, nullptr));
+    const int radius = structure_px(cells, cell);
+    if (radius > kMostCore * fine.size_px) return mapped(drawn(coc_radius_px, field, 1, nullptr));
+    const Rect window{-radius, -radius, radius + 1, radius + 1};
+    PointSpread core = drawn(coc_radius_px, field, 1, &window);
+    if (colours == Colours::Mapped) map_part_into_gamut(core);
+    return with_halo(core, cells, cell, radius, reach_px(coc_radius_px));
+}
+
+PointSpread TracedModel::raw_point_spread(double coc_radius_px, FieldPosition field) const {
+    return spread(coc_radius_px, field, Colours::Raw);
 }
 
 std::vector<TracedModel::Colour> TracedModel::colours_of(const Node& node, const Fineness& fine,
@@ -467,9 +500,7 @@ std::optional<std::vector<Rgba>> TracedModel::axial_row(double coc_radius_px, Ri
 }
 
 PointSpread TracedModel::point_spread(double coc_radius_px, FieldPosition field) const {
-    PointSpread spread = raw_point_spread(coc_radius_px, field);
-    map_into_gamut(spread);
-    return spread;
+    return spread(coc_radius_px, field, Colours::Mapped);
 }
 
 std::vector<PupilRay> TracedModel::rays(int count, FieldPosition field, std::uint64_t seed) const {

@@ -64,15 +64,19 @@ private:
     std::vector<Point> outline(const Node& node, const FieldAxis& axis, FieldPosition field,
                                double tolerance) const;
     struct Fineness {
-        int bands = 1;
         double size_px = 0;  // how far light lands
         double path_px = 0;  // that rims travel over wavelengths that count
+        int bands = 1;
     };
+    int bands_for(double path_px) const;
     Fineness fineness(const Node& node, const std::vector<Point>& outline, double coc_radius_px) const;
     struct Colour {
         Light weight;
         Displacement landing_px;
     };
+    enum class Colours { Raw, Mapped };
+    PointSpread spread(double coc_radius_px, FieldPosition field, Colours colours) const;
+    PointSpread drawn(double coc_radius_px, FieldPosition field, double cell_px, const Rect* window) const;
     std::vector<Colour> colours_of(const Node& node, const Fineness& fine, double coc_radius_px) const;
     std::optional<Node> traced_node(const optics::TracedLens& lens, double field_rad) const;
     std::vector<Displacement> traced_per_coc(const optics::TracedLens& lens, double field_rad,

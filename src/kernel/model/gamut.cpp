@@ -86,18 +86,23 @@ void take_from_the_nearest(Values& light, int width, int height) {
 
 }  // namespace
 
-void map_into_gamut(PointSpread& spread) {
-    if (spread.neutral) return;
-    const auto pixels = std::span(spread.weights.pixels(), spread.weights.size());
+void map_part_into_gamut(PointSpread& part) {
+    if (part.neutral) return;
+    const auto pixels = std::span(part.weights.pixels(), part.weights.size());
     for (const auto channel : {&Rgba::r, &Rgba::g, &Rgba::b}) {
         if (std::none_of(pixels.begin(), pixels.end(), [&](const Rgba& w) { return w.*channel < 0; }))
             continue;
         Values light;
         light.reserve(pixels.size());
         for (const Rgba& w : pixels) light.push_back(double(w.*channel));
-        take_from_the_nearest(light, spread.weights.width(), spread.weights.height());
+        take_from_the_nearest(light, part.weights.width(), part.weights.height());
         for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i].*channel = float(light[i]);
     }
+}
+
+void map_into_gamut(PointSpread& spread) {
+    if (spread.neutral) return;
+    map_part_into_gamut(spread);
     normalise(spread);
 }
 

@@ -14,6 +14,9 @@ namespace petzval::kernel {
 // and channels without negative values, are returned unchanged. Requires: sums are positive.
 void map_into_gamut(PointSpread& spread);
 
+// The same of a part of a kernel, which is not scaled to a sum of 1, and whose alpha is not set.
+void map_part_into_gamut(PointSpread& part);
+
 // The same of a kernel that is the same in every direction, by the light in its rings, from the axis out.
 void map_into_gamut(std::vector<Light>& rings);
 
