@@ -1,18 +1,12 @@
 /* Depth as renderers write it, through the C door: its kind, unit and range, and what counts as missing. */
+#include "expect.h"
+
 #include <math.h>
 #include <petzval/petzval_c.h>
 #include <stdio.h>
 #include <string.h>
 
 enum { WIDTH = 48, HEIGHT = 32 };
-
-static int failures = 0;
-
-static void expect(int holds, const char* what) {
-    if (holds) return;
-    printf("failed: %s (last error: %s)\n", what, petzval_error_text());
-    ++failures;
-}
 
 static float colour[HEIGHT][WIDTH][4], metres[HEIGHT][WIDTH];
 

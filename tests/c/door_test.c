@@ -1,5 +1,7 @@
 /* The C door, used as a C host uses it: every function, pictures in a host's own layout, errors, old structs.
  */
+#include "expect.h"
+
 #include <math.h>
 #include <petzval/petzval_c.h>
 #include <stdint.h>
@@ -8,14 +10,6 @@
 #include <string.h>
 
 enum { WIDTH = 48, HEIGHT = 32 };
-
-static int failures = 0;
-
-static void expect(int holds, const char* what) {
-    if (holds) return;
-    printf("failed: %s (last error: %s)\n", what, petzval_error_text());
-    ++failures;
-}
 
 /* A lamp at (20, 16) on black, RGBA, rows top-down or bottom-up. */
 typedef struct picture {

@@ -1,18 +1,12 @@
 /* Lenses through the C door, as a lens lab uses them: without sessions, devices, files or threads. Linked with the
  * rooms of lenses alone (tests/c/CMakeLists.txt), which a shared library would not show. */
+#include "expect.h"
+
 #include <math.h>
 #include <petzval/petzval_c.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static int failures = 0;
-
-static void expect(int holds, const char* what) {
-    if (holds) return;
-    printf("failed: %s (last error: %s)\n", what, petzval_error_text());
-    ++failures;
-}
 
 /* A square of floats, r, g, b, a. */
 static petzval_pixels square(float* rgba, int size) {
