@@ -47,11 +47,12 @@ struct OtherPicture {
 // focal length, sensor width) and depths project the pixels. Cameras may look along +z or -z and may have x
 // to either side: the variant that fits most of the picture is used.
 //
-// A picture is ignored, with a line in `left_out`, in these cases: - by its camera, less than half of
-// the picture looks the same: many objects move, and surfaces that were uncovered there may be covered
-// now;
-// - by its vectors, less looks the same than by its camera, or, if the camera explains less than half, less
-//   than seven tenths.
+// A picture is ignored, with a line in `left_out`, in two cases:
+//
+//   by its camera    less than half of the picture looks the same: many objects move, and surfaces that were
+//                    uncovered there may be covered now
+//   by its vectors   less looks the same than by its camera, or, if the camera explains less than half, less
+//                    than seven tenths
 //
 // Within a picture, surfaces (connected pixels at one depth) that move by themselves are ignored
 // completely. Where both pictures see a surface, or one sees it slightly behind the other, at least nine in

@@ -10,14 +10,14 @@
 
 namespace petzval::engine {
 
-// A step of less than a pixel of radius hides hardly anything, so it always connects.
+// A step of less than one pixel of radius always connects, because it hides almost nothing.
 inline bool always_connected(float coc_a_px, float coc_b_px) {
     return std::abs(coc_b_px - coc_a_px) <= completion_model.step_px;
 }
 
-// True if two neighbouring samples belong to one surface. A step that does not always connect them does
-// where it continues the slope on one of its sides (signed change of radius from the sample before a to a,
-// and from b to the sample after b).
+// True if two neighbouring samples belong to one surface. A larger step connects them only if it continues
+// the slope on one of its sides. A slope is the signed change of radius, from the sample before a to a, or
+// from b to the sample after b.
 inline bool same_surface(float coc_a_px, float coc_b_px, float slope_before_a_px, float slope_after_b_px) {
     if (always_connected(coc_a_px, coc_b_px)) return true;
     const float step = coc_b_px - coc_a_px;

@@ -1,5 +1,5 @@
-// Estimates two things that a picture with depth does not state: the share of each surface in a silhouette's
-// pixel, and the surfaces behind a near edge, where a lens looks past it.
+// Estimates two things that a picture with depth does not state: the coverage of each surface in a pixel of a
+// silhouette, and the surfaces behind a near edge, which rays through the rim of the lens reach.
 #pragma once
 
 #include "petzval/image.h"
@@ -20,43 +20,43 @@
 
 namespace petzval::engine {
 
-// A picture, and its surfaces without the light of lamps.
+// A picture, with and without the light of lamps.
 struct LitPicture {
     View<const Rgba> colour;
-    Dim dim_of;  // light of the picture without lamps; empty if it has none
+    Dim dim_of;  // the picture without lamps; empty if it has no lamps
     Rgba dim(int x, int y) const { return dim_of ? dim_of(x, y, colour(x, y)) : colour(x, y); }
 };
 
-// A separated pixel of a silhouette. The renderer filtered its colour over the pixel and beyond, but its
-// depth is that of one point:
+// A pixel of a silhouette, separated into two surfaces. The renderer filtered the pixel's colour over its
+// area and beyond, but its depth is that of one point:
 //     colour = near_colour + (1 - near_share) far_colour + far_light.
 struct Mixture {
     bool shows_far = false;    // true if the depth is that of the farther surface
     bool lights_near = false;  // true if lamps light the nearer surface
     bool lit = false;          // true if lamps light the pixel or one beside it
-    bool thin = false;     // true if the nearer surface has no clean pixel nearby, and the pixel is not lit
+    bool thin = false;     // true if no clean pixel of the nearer surface is nearby, and the pixel is not lit
     float near_share = 0;  // 0…1: coverage of the nearer surface
     Rgba near_colour;      // premultiplied by near_share; includes the light of lamps on this surface
     Rgba far_colour;       // colour of the farther surface if it filled the pixel; without lamps
-    Rgba far_light;        // light of lamps behind the nearer surface, as visible in the pixel; a is 0
+    Rgba far_light;        // visible light of lamps behind the nearer surface; a is 0
     float near_coc_px = 0, far_coc_px = 0, lamp_coc_px = 0;
     // 0…1: fraction of the pixel's lamp light that comes from lamps behind the nearer surface.
     float lamps_behind = 0;
-    // Facts about the nearer surface: its colour where it fills pixels, the variance of that colour (mean
-    // of the channels), and the share that the silhouette's shape suggests.
+    // The nearer surface's colour where it fills pixels, the variance of that colour (mean of the channels),
+    // and the coverage that the silhouette's shape suggests.
     Rgba near_clean;
     float near_variance = 0, share_by_shape = 0;
 
-    // The shape and the model err so many times more at strands and beside lamps than at a plain edge.
+    // Errors of shape and model relative to those at a plain edge; larger at strands and beside lamps.
     float errors() const { return thin || lit ? completion_model.strand_errors : 1; }
-    // Separates the colour c of a pixel that shows the farther surface, without lamps.
+    // Separates the colour c, without lamps, of a pixel that shows the farther surface.
     void take_apart(Rgba c, float near_covers, Rgba behind) {
         near_share = near_covers;
         const float far_share = 1 - near_share, alpha = far_colour.a;
         near_colour = light_only(c - far_share * behind);
         far_colour = behind;
         if (far_share <= 0) return;
-        // In a dark pixel neither surface can have more light than the rest.
+        // In a dark pixel the farther surface has no more light than the nearer one leaves.
         far_colour = light_only((c - near_colour) * (1 / far_share));
         far_colour.a = alpha;
     }
@@ -66,34 +66,35 @@ using Mixtures = SparseRows<Mixture>;
 
 // Extent of the search that separates a silhouette's pixel.
 struct UnmixRule {
-    // Largest distance of clean colours that are used.
+    // Clean colours are searched up to this distance.
     int clean_within_px = int(completion_model.clean_within_px);
-    bool along_outline = true;  // average the share of the shape along the outline
+    bool along_outline = true;  // true: average the coverage from the shape along the outline
     static UnmixRule draft() { return {2, false}; }
 };
 
 // Finds every pixel that touches a silhouette (also diagonally), and separates those that show the farther
-// surface. The clean colours of both surfaces come from their nearest pixels that touch no silhouette (for a
-// thin thing without such pixels, from its pixels least like the far side). The share is the mean of all
-// shares that explain the pixel; the unexplained rest is the farther surface's detail. Pixels that show the
-// nearer surface show hardly any of the farther one: it is filled in first, then unmix_nearer() separates
-// them. Light of a lamp goes to one side completely: to the side whose pixels nearby show more of it.
+// surface. The clean colours of both surfaces come from their nearest pixels that touch no silhouette. If a
+// thin object has none, its colour comes from its pixels that differ most from the far side. The
+// coverage is the mean of all values that explain the pixel; the unexplained rest is the farther surface's
+// detail. Pixels that show the nearer surface show little of the farther one, so fill_hidden() estimates the
+// farther surface before unmix_nearer() separates them. Light of a lamp belongs to one side completely: the
+// side whose pixels nearby show more of it.
 Mixtures unmix_silhouettes(const LitPicture& picture, View<const float> coc_px,
                            View<const unsigned char> connected, Workers& workers, const UnmixRule& rule = {});
 
-// A sample behind the visible one that takes up `share` of its pixel; colour is premultiplied by that and by
-// its alpha.
+// A sample behind the visible one. It covers `share` of its pixel; its colour is premultiplied by share and
+// alpha.
 struct Hidden {
     Rgba colour;
     float coc_px = 0;
     float share = 1;
 };
 
-// Hidden samples of every pixel, nearest first; pixels may share theirs.
+// Hidden samples of every pixel, nearest first. Several pixels may share one list of samples.
 struct HiddenLayers {
     static constexpr int kBand = SparseRows<Hidden>::kBand;  // rows in a band
-    static constexpr int kMost = 3;                          // most hidden samples of a pixel
-    // A pixel's samples, as a range in the samples of its band.
+    static constexpr int kMost = 3;                          // a pixel has at most so many hidden samples
+    // A pixel's samples are a range of its band's samples.
     struct Range {
         std::uint32_t begin : 30, count : 2;
     };
@@ -111,24 +112,25 @@ struct HiddenLayers {
     }
 };
 
-// Separates silhouette pixels that show the nearer surface, before the hidden surfaces behind them.
+// Separates silhouette pixels that show the nearer surface from the hidden surfaces behind them.
 void unmix_nearer(Mixtures& mixtures, const LitPicture& picture, const HiddenLayers& hidden,
                   Workers& workers);
 
-// Pixels of a square share the surfaces found for one of them, if these are blurred by shared_from_px or
-// more: squares of 2 x 2, of 4 at twice that radius, of 8 at six times. An empty answer is not shared,
-// because it depends on the pixel's distance from the silhouette.
+// Extent of the search for hidden surfaces. Pixels of a square share the surfaces found for one of them if
+// the blur radius of these surfaces is at least shared_from_px. The square is 2 x 2 pixels, 4 x 4 at twice
+// that radius and 8 x 8 at six times. An empty result is not shared, because it depends on the pixel's
+// distance from the silhouette.
 struct FillRule {
     float shared_from_px = completion_model.shared_from_px;
-    // Directions that are searched first, of 16, 8 or 4, and all that are searched if no surface was met
-    // there.
+    // Number of directions that are searched first, and of those searched if the first find no surface:
+    // 16, 8 or 4.
     int first_directions = 8, directions = 16;
-    bool textures = true;  // continue the texture of surfaces in focus
+    bool textures = true;  // true: continue the texture of surfaces in focus
     // Edges of the picture continue straight on surfaces whose blur radius is at most this.
     float edges_to_px = std::numeric_limits<float>::infinity();
-    // Only surfaces at smaller signed radii are looked behind.
+    // Hidden surfaces are estimated only behind occluders with a smaller signed radius.
     float hides_before_px = std::numeric_limits<float>::infinity();
-    bool smooths = true;  // neighbours agree on colours (behind/smooth.h)
+    bool smooths = true;  // true: smooth colours between neighbours (behind/smooth.h)
     static FillRule draft() { return {1.5f, 4, 8, false, 6}; }
     // For previews, whose rings of kernels hide grain and small errors.
     static FillRule preview() {
@@ -142,11 +144,12 @@ struct FillRule {
     }
 };
 
-// Continues what lies behind every surface inwards from its silhouettes, as far as any lens ray can reach
-// behind it. Only from surfaces farther than the one that hides. Along opposite directions that agree,
-// colours are interpolated (edges run on behind a thin thing); otherwise the nearest continues. The weights
-// fall with distance a little faster than those of the mean-value interpolant (M. Floater, "Mean value
-// coordinates", 2003), 1/distance: its power of 1.5 comes closer on the path-traced fence.
+// Continues surfaces behind each occluder, from its silhouettes inwards, as far as any ray of the lens
+// reaches behind it. A surface continues only if it is farther than the occluder. If the surfaces in opposite
+// directions agree, their colours are interpolated, so edges continue behind thin objects; otherwise the
+// nearest surface continues. Weights are distance^-1.5. They fall faster than those of the mean-value
+// interpolant, 1/distance (M. Floater, "Mean value coordinates", 2003), and come closer to the truth on the
+// path-traced fence.
 HiddenLayers fill_hidden(const LitPicture& picture, View<const float> coc_px,
                          View<const unsigned char> connected, const Mixtures& mixtures, float nearest_coc_px,
                          float farthest_coc_px, const FillRule& rule, Workers& workers);

@@ -18,14 +18,14 @@ struct FoundSurfaces {
     std::size_t bytes() const { return flat.bytes() + lamps.bytes(); }
 };
 
-// The estimate depends on the picture, its radii and the quality alone, and takes up to half of a frame. So a
-// frame through another lens, or with other blades or glare, has the surfaces of the frame before. Any number
-// of threads may use it at once.
+// Estimated surfaces depend only on the picture, its radii and the quality, and take up to half of the time
+// of a frame. A frame through another lens, or with other blades or glare, reuses those of the frame before.
+// Any number of threads may use an object at once.
 class KeptSurfaces {
 public:
-    // True from the second time on. Frames of a shot are asked for once, and nothing is kept for them.
+    // True from the second call on. Each frame of a shot is asked for once, so nothing is kept for it.
     bool was_asked_for(std::uint64_t outline);
-    // The surfaces of this name, or find(), which are kept.
+    // The surfaces of this name; if there are none, keeps the result of find().
     template <typename Find>
     std::shared_ptr<const FoundSurfaces> get(std::uint64_t name, const Find& find) {
         return surfaces_.get(name, find);
@@ -35,17 +35,16 @@ public:
 
 private:
     Kept<std::uint64_t, FoundSurfaces> surfaces_;
-    std::mutex mutex_;                    // of asked_for_
-    std::list<std::uint64_t> asked_for_;  // the last first
+    std::mutex mutex_;                    // guards asked_for_
+    std::list<std::uint64_t> asked_for_;  // latest first
 };
 
-// A name for all that decides the surfaces of this picture besides `rules`: its light, its radii, and its
-// light without lamps. As good as certainly, other pictures have other names. every_row: the name looks at
-// one row in so many.
+// Hash of everything that determines the surfaces of this picture: `rules`, its light, its radii, and its
+// light without lamps. every_row: only one row in so many is hashed.
 std::uint64_t name_of_surfaces(const EngineView& input, View<const Rgba> colour, const Dim& dim,
                                std::uint64_t rules, int every_row = 1);
 
-// find(), or what the session keeps of it.
+// The surfaces that the session keeps for this picture; without them, the result of find().
 template <typename Find>
 std::shared_ptr<const FoundSurfaces> kept_or_found(const EngineView& input, View<const Rgba> colour,
                                                    const Dim& dim, std::uint64_t rules, const Find& find) {

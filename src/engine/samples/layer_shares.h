@@ -1,10 +1,10 @@
-// More colour layers of one picture, blurred by the beauty's own plan: what of each sample's light is a
-// layer's.
+// Further colour layers of a picture, blurred by the plan of its beauty: the fraction of each sample's light
+// that belongs to a layer.
 //
-// Everything that decides (which surface, how much of it, what hides behind it, which light is a highlight)
-// was decided of the beauty. A layer has a share of each sample's light, by channel. Shares of light are
-// linear in the layer, so that layers which sum to the beauty still sum to it when all are blurred. Shares of
-// coverage (mattes) stay within the range of the layer, and those of a matte and its complement sum to 1.
+// The beauty alone determines surfaces, coverage, hidden background and highlights. A layer has a fraction of
+// each sample's light, per channel. These fractions are linear in the layer, so layers that sum to the beauty
+// still sum to it after the blur. Fractions of coverage (mattes) stay within the range of the layer, and
+// those of a matte and its complement sum to 1.
 #pragma once
 
 #include "engine/waist/engine.h"
@@ -20,7 +20,7 @@ namespace petzval::engine {
 // that show the same surface; the fractions of several visible samples average to the pixel's.
 class LayerShares {
 public:
-    // Number of layers that are done at once; each costs memory.
+    // Number of layers that are processed at once; each needs memory.
     static constexpr std::size_t kAtOnce = 4;
     LayerShares(const EngineView& input, const CocSamples& complete, std::span<const SampleLayer> layers);
     // The shares of one layer, for every sample.

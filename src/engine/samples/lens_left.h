@@ -29,8 +29,8 @@ namespace petzval::engine {
 //   `another_surface` layers later           another surface
 //   between                                  a mixture of both
 //
-// If side by side all of them would have filled the lens, the remaining area is returned to them in
-// proportion to the area that each lost: nothing else is known there, so the surfaces meet.
+// If all surfaces side by side would fill the lens, the remaining area is returned to them in proportion to
+// the area that each lost: no other surface is known there, so these surfaces meet.
 struct LensLeft {
     float before = 1;  // free area before the current surface
     float own = 0;     // fraction of `before` that this surface takes so far

@@ -15,9 +15,10 @@ namespace petzval::engine {
 // the pinhole sees beside the edge, unless the two radii lie on both sides of focus, where the rays cross.
 inline bool is_hidden(float in_front_px, float coc_px) { return coc_px <= 0 || in_front_px >= 0; }
 
-// The samples of a pixel, nearest first, as a gather takes them: the part on a straight ray first, then the
-// part hidden by others. Hardly any ray reaches a sample right behind its occluder: within two rings, whose
-// light is mixed, the occluder would become transparent, so only the area that it leaves open counts.
+// The samples of a pixel, nearest first, in the order of a gather: the part on a straight ray first, then the
+// part hidden by others. A sample right behind its occluder counts only with the area that the occluder
+// leaves open. Few rays reach the rest, and the gather mixes the light of two rings, so the occluder would
+// become transparent.
 template <typename Emit>
 class SeenFirst {
 public:

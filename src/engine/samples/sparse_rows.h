@@ -1,5 +1,5 @@
-// Values that few pixels have, found row by row. They are held by bands of rows: of a large frame in blocks
-// that the system has back at once when they are let go.
+// Values of a few pixels, found row by row and stored by bands of rows. The memory of a large frame's bands
+// returns to the system as soon as it is released.
 #pragma once
 
 #include "petzval/image.h"
@@ -29,7 +29,7 @@ class SparseRows {
 public:
     static constexpr int kBand = 8;  // rows
     SparseRows() = default;          // holds no values
-    // Add the values by find_row().
+    // find_row() adds the values.
     SparseRows(int width, int height)
         : width_(width),
           words_((width + 63) / 64, height),

@@ -10,17 +10,17 @@
 
 namespace petzval::engine {
 
-// One surface behind a pixel, before neighbours have agreed on its colour: plain * seen.colour + texture.
+// One surface behind a pixel before smoothing. Its colour is plain * seen.colour + texture.
 struct HiddenGuess {
     Hidden seen;          // its colour is not yet premultiplied by share
-    Rgba texture;         // what a texture tells of the colour,
-    float plain = 1;      // and the rest of the colour
+    Rgba texture;         // the part of the colour that comes from a texture
+    float plain = 1;      // weight of seen.colour, the rest
     float smooth_px = 0;  // radius of the mean over neighbours; 0: none
 };
 using HiddenGuesses = std::vector<std::vector<HiddenGuess>>;  // by bands of rows, as HiddenLayers
 
-// A search from one pixel meets other things than a search from the next, so lone answers show as grain,
-// combs and rays. Replaces each colour by a mean over the same surface behind neighbouring pixels, on the
+// Searches from neighbouring pixels meet different surfaces, so single results show as grain, combs and
+// rays. Replaces each colour by a mean over the same surface behind neighbouring pixels, on the
 // same side of the picture's edges; textures stay. Passes with holes ("à trous": M. Holschneider et al., "A
 // real-time algorithm for signal analysis with the help of the wavelet transform", 1989) make the cost
 // independent of the radius. Shares stay too: outlines have their own estimate.

@@ -12,11 +12,16 @@ public:
     Outline(View<const float> coc_px, int x, int y, float threshold_px);
     // The share of the pixel that the nearer surface most likely covers, 0…1.
     //
-    // Along an edge or a strand all pixels of a line show the same share, but the depth of each is that of
-    // another place across it: their mean knows more than one of them. Measured on the built-in hair, strands
-    // of 1 px and less, correlation with the true coverage where the depth is the hair's and where it is not:
-    // the 3 x 3 tent alone 0.66 and 0.68, as a mean along the outline 0.73 and 0.72, a narrower tent 0.79 and
-    // 0.80. along: false for the tent alone.
+    // Along an edge or a strand all pixels have the same coverage, but each has the depth of another place
+    // across it, so their mean is more exact than one pixel. Correlation with the true coverage on the
+    // built-in hair, strands of 1 px and less:
+    //
+    //                               depth of the hair   depth of the background
+    //   3 x 3 tent alone            0.66                0.68
+    //   mean along the outline      0.73                0.72
+    //   and a narrower tent         0.79                0.80
+    //
+    // along: false for the tent alone.
     float near_share(bool along = true) const;
 
 private:

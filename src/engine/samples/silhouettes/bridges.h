@@ -8,10 +8,10 @@
 
 namespace petzval::engine {
 
-// The depth of a pixel is that of its middle, which a strand thinner than a pixel misses for many pixels in a
-// row, while the colour shows it there. Returns the radii with the strand's own in these gaps, or an empty
-// plane if there are none. A gap is followed along the colour, for up to 16 px, and counts only if it leads
-// to another pixel of the same strand: a line of a texture ends elsewhere.
+// The depth of a pixel is that of its middle. A strand thinner than a pixel misses the middle of many pixels
+// in a row, although their colour shows it. Returns the radii with the strand's own radius in these gaps, or
+// an empty plane if there are no gaps. A gap is followed along the colour for up to 16 px. It counts only if
+// it leads to another pixel of the same strand; a line of a texture ends elsewhere.
 Plane bridged_strands(const LitPicture& picture, View<const float> coc_px,
                       View<const unsigned char> connected, Workers& workers);
 

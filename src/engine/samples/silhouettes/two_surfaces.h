@@ -1,4 +1,4 @@
-// A pixel that shows parts of two surfaces: which part is whose, from their colours and from its shape.
+// Estimates the coverage of two surfaces in one pixel, from their colours and from the silhouette's shape.
 #pragma once
 
 #include "petzval/image.h"
@@ -8,7 +8,7 @@
 
 namespace petzval::engine {
 
-// Light as it is compared: so that squares of it stay finite.
+// Light for comparisons, limited so that its squares stay finite.
 inline Rgba comparable(Rgba c) {
     constexpr float kMost = 1e8f;
     return {std::clamp(c.r, -kMost, kMost), std::clamp(c.g, -kMost, kMost), std::clamp(c.b, -kMost, kMost),
@@ -21,7 +21,7 @@ inline float distance2(Rgba a, Rgba b) {
 }
 inline float dot(Rgba a, Rgba b) { return a.r * b.r + a.g * b.g + a.b * b.b + a.a * b.a; }
 
-// A colour that is known to within a variance, the mean of its channels'.
+// A colour and its variance, the mean of the channels' variances.
 struct Guess {
     Rgba colour;
     float variance = 0;
@@ -56,15 +56,15 @@ struct Explained {
     Rgba far_colour;
 };
 
-// Variance of a colour that is taken for exact. errors: Mixture::errors().
+// Variance of a colour that counts as exact. errors: Mixture::errors().
 float least_variance(Rgba c, float errors);
 
-// The mean over all shares that explain the pixel's colour c, weighted by their likelihood for c and their
-// agreement with the shape. The unexplained rest belongs to the surface that is known less. errors: as above.
+// The mean of all coverages that explain the pixel's colour c, weighted by their likelihood for c and their
+// agreement with the shape. The unexplained rest belongs to the less certain surface. errors: as above.
 Explained expected(Rgba c, const Guess& near, const Guess& far, float by_shape, float errors);
 
-// The nearer surface's share of a pixel of colour c in front of a known background. The background cannot
-// give more light than it has.
+// The nearer surface's coverage of a pixel of colour c in front of a known background. The background cannot
+// contribute more light than it has.
 float share_before(Rgba c, const Guess& near, Rgba behind, float by_shape, float errors);
 
 }  // namespace petzval::engine
