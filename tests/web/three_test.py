@@ -3,19 +3,31 @@
 Usage: pages.py says it.
 """
 import base64
+import json
 import math
 import pathlib
+import re
 import struct
 import subprocess
 import tempfile
 import unittest
 
-from pages import PETZVAL, SITE, By, Page
+from pages import PETZVAL, ROOT, SITE, By, Page
 from selenium.webdriver.common.keys import Keys
 
 from pictures import camera_attributes, read_exr, write_exr
 
 WIDTH, HEIGHT = 320, 180
+README = (ROOT / "web/three/README.md").read_text()
+# What the block of the README leaves to its reader, and a frame at the end.
+AROUND = """const {{ renderer, scene, camera }} = demo, width = {width}, height = {height};
+{block}
+const shown = () => (composer.render(), renderer.domElement.toDataURL());
+export const open = shown();
+blur.lens.fStop = 16;
+export const stopped = shown();
+export const angle = camera.fov, atlas = blur.lens.atlas;
+"""
 ASK = """
 const base64 = (floats) => {
   const bytes = new Uint8Array(floats.buffer);
@@ -122,6 +134,26 @@ class Three(Page):
             const header = await (await fetch("lenses/doublet/atlas.json")).json();
             return new LensAtlas(header, new ArrayBuffer(100), "x"); })""")
         self.assertRegex(damaged, "^refused: petzval: the lens atlas x needs [0-9]+ bytes of texels, not 100")
+
+    def test_the_block_of_the_readme_draws_a_frame(self):
+        blocks = re.findall(r"^```js\n(.*?)^```", README, re.M | re.S)
+        self.assertEqual(len(blocks), 1)
+        text = AROUND.format(width=WIDTH, height=HEIGHT, block=blocks[0].replace('"petzval-three"', f'"{self.origin}/three/index.js"'))
+        before = self.browser.execute_script("return demo.camera.fov")
+        made = self.done("""import(URL.createObjectURL(new Blob([args[0]], { type: "text/javascript" })))
+            .then(({ open, stopped, angle, atlas }) => ({ differ: open !== stopped, angle, has_lens: Boolean(atlas) }))""", text)
+        self.assertIsInstance(made, dict, made)
+        self.assertTrue(made["differ"] and made["has_lens"], made)
+        self.assertNotAlmostEqual(made["angle"], before)
+        self.assertEqual(self.console(), [])
+
+    def test_the_command_of_the_readme_writes_the_lens_of_that_size(self):
+        command, kilobytes = re.search(r"`petzval (lens atlas [^`]*)` writes the lens \((\d+) kB\)", README).groups()
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([PETZVAL, *command.split(), "-q"], cwd=folder, check=True, capture_output=True)
+            written = pathlib.Path(folder, command.split()[-1])
+            self.assertEqual(json.loads((written / "atlas.json").read_text())["name"], command.split()[2])
+            self.assertAlmostEqual(sum(f.stat().st_size for f in written.iterdir()) / 1000, int(kilobytes), delta=1)
 
     def test_pmndrs_composer_draws_the_same_lens(self):
         made = self.done("""Promise.all([import("three"), import("./vendor/postprocessing.js"), import("./index.js")]).then(([THREE, pmndrs, { pmndrsLensPass }]) => {
