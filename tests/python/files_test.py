@@ -142,6 +142,13 @@ class Files(unittest.TestCase):
         scene = petzval.make_scene("bars", 32, 18)
         with self.assertRaises(petzval.InvalidArgument):
             scene.write_like(self.folder / "out.exr", np.zeros((4, 4, 4), np.float32))
+        with self.assertRaisesRegex(petzval.InvalidArgument, "out.jpg: the name must end in .exr"):
+            scene.write_like(self.folder / "out.jpg", scene.colour)
+        self.assertFalse((self.folder / "out.jpg").exists())
+        for given, says in (({"path": 3}, "^path is int; a file name is needed"), ({"path": "x.exr", "depth_unit_m": 0}, "depth_unit_m is 0"),
+                            ({"path": "x.exr", "camera": (50, 36)}, "^camera is tuple")):
+            with self.assertRaisesRegex(petzval.InvalidArgument, says):
+                petzval.read_shot(**given)
         with self.assertRaises(petzval.OutputFailed):
             scene.write_like(self.folder / "no/such/folder/out.exr", scene.colour)
 

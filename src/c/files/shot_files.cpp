@@ -1,4 +1,5 @@
 // libpetzval-files.so: shots read from files and written back, and scenes with their truth.
+#include "petzval/display_files.h"
 #include "petzval/files.h"
 #include "petzval/names.h"
 #include "petzval/petzval_files_c.h"
@@ -114,13 +115,14 @@ Result<Frame> frame_like(const Shot& shot, const petzval_pixels* colour, const p
         const auto view = c::colour_view(from, name.c_str());
         if (!view) return view.error();
         if (view->width != shot.colour.width() || view->height != shot.colour.height())
-            return Error{ErrorCode::InvalidArgument, name + " is not of the size of the shot's colour"};
+            return Error{ErrorCode::InvalidArgument, name + " must have the size of the shot's colour"};
         Picture picture = Picture::uninitialised(view->width, view->height);
         read_pixels(*view, picture);
         return picture;
     };
     if (layer_count != 0 && (layer_count != shot.layers.size() || !layers))
-        return Error{ErrorCode::InvalidArgument, "layer_count is " + std::to_string(layer_count) + "; 0 or " +
+        return Error{ErrorCode::InvalidArgument, "layer_count is " + std::to_string(layer_count) +
+                                                     "; it must be 0 or " +
                                                      std::to_string(shot.layers.size())};
     Frame frame;
     auto picture = read(colour, "colour");
@@ -212,6 +214,9 @@ petzval_status petzval_files_write_like(const petzval_shot_file* file, const pet
     if (!file) return missing("file");
     if (!path) return missing("path");
     return guarded([&] {
+        const auto kind = kind_of_output(path);
+        if (!kind || *kind != FileKind::Exr)
+            return fail(Error{ErrorCode::InvalidArgument, std::string(path) + ": the name must end in .exr"});
         const auto frame = frame_like(file->shot, colour, layers, layer_count);
         if (!frame) return fail(frame.error());
         WriteOptions options;
