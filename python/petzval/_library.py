@@ -9,6 +9,7 @@ import pathlib
 
 from . import _declared, errors
 
+NUMBERS = (ctypes.c_double, ctypes.c_float, ctypes.c_int, ctypes.c_int32, ctypes.c_uint32, ctypes.c_uint64)
 SONAME, FILES_SONAME = "libpetzval.so.0", "libpetzval-files.so.0"
 
 
@@ -92,8 +93,16 @@ def names(function: str) -> list[str]:
 
 
 def struct(struct_type, **members):
-    """A struct of the API with its size set, everything else 0."""
-    value = struct_type(**members)
+    """A struct of the API with its size set, everything else 0. Raises InvalidArgument for what is not a number."""
+    value = struct_type()
+    types = dict(struct_type._fields_)
+    for name, member in members.items():
+        try:
+            setattr(value, name, member)
+        except TypeError:
+            if types[name] not in NUMBERS:
+                raise
+            raise errors.InvalidArgument(f"{name} is {type(member).__name__}; a number is needed") from None
     if struct_type._fields_[0][0] == "size":
         value.size = ctypes.sizeof(struct_type)
     return value

@@ -55,5 +55,12 @@ class Internal(Error, RuntimeError):
     status = "internal"
 
 
+def of_type(value, types, name: str, needed: str):
+    """The value. Raises InvalidArgument, which names it, if it is of another type."""
+    if not isinstance(value, types):
+        raise InvalidArgument(f"{name} is {type(value).__name__}; {needed} is needed")
+    return value
+
+
 BY_STATUS = {1: InvalidArgument, 2: InvalidFile, 3: Unsupported, 4: OutputFailed, 5: OutOfMemory, 6: Cancelled,
              7: Internal, 8: ReadFailed}

@@ -36,4 +36,7 @@ class ReadFailed(Error, OSError):
 class Internal(Error, RuntimeError):
     """A fault of petzval."""
     status = 'internal'
+
+def of_type(value, types, name: str, needed: str):
+    """The value. Raises InvalidArgument, which names it, if it is of another type."""
 BY_STATUS: dict

@@ -13,7 +13,7 @@ from . import _declared, errors
 from ._library import call_files, files_library, struct
 from ._pixels import pixels_of
 from .camera import Camera
-from .shot import Layer, Shot, range_of
+from .shot import Layer, Shot, range_of, unit_of
 
 
 class _Lent:
@@ -125,10 +125,11 @@ def read_shot(path: str | os.PathLike, *, layer: str | None = None, view_name: s
     Raises InvalidFile, InvalidArgument for names that the file does not have, Unsupported without the library.
     """
     names = (ctypes.c_char_p * max(1, len(layers)))(*[name.encode() for name in layers])
-    own = camera._struct() if camera else None
+    errors.of_type(path, (str, os.PathLike), "path", "a file name")
+    own = None if camera is None else errors.of_type(camera, Camera, "camera", "a petzval.Camera")._struct()
     source = struct(_declared.petzval_shot_source, path=_text(path), layer=_text(layer), view_name=_text(view_name),
                     depth_file=_text(depth_file), depth_channel=_text(depth_channel), depth_kind=_text(depth_kind),
-                    depth_unit_m=depth_unit_m, behind=_text(behind), holdout=_text(holdout), mask=_text(mask),
+                    depth_unit_m=unit_of(depth_unit_m), behind=_text(behind), holdout=_text(holdout), mask=_text(mask),
                     lights=_text(lights), layers=names, layer_count=len(layers),
                     camera=ctypes.pointer(own) if own is not None else None, threads=threads,
                     max_memory_bytes=max_memory_bytes, depth_range=range_of(depth_range))

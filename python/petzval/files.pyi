@@ -12,7 +12,7 @@ from . import _declared, errors
 from ._library import call_files, files_library, struct
 from ._pixels import pixels_of
 from .camera import Camera
-from .shot import Layer, Shot, range_of
+from .shot import Layer, Shot, range_of, unit_of
 
 class FileShot(Shot):
     """A shot that was read from files, or a scene. Its arrays lie in the memory of the file that was read.

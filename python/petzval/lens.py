@@ -20,6 +20,7 @@ class Lens:
     """
 
     def __init__(self, name_or_file: str | os.PathLike) -> None:
+        errors.of_type(name_or_file, (str, os.PathLike), "lens", "a name or a path")
         self._handle = made(_declared.petzval_lens, "petzval_lens_open", os.fspath(name_or_file).encode())
 
     @classmethod
@@ -141,7 +142,7 @@ class _Mount:
     """The camera and the picture's size, for the time of a call."""
 
     def __init__(self, camera: Camera, size: tuple[int, int], pixel_aspect: float) -> None:
-        self._camera = camera._struct()
+        self._camera = errors.of_type(camera, Camera, "camera", "a petzval.Camera")._struct()
         self._mount = struct(_declared.petzval_lens_mount, camera=ctypes.pointer(self._camera), width=size[0],
                              height=size[1], pixel_aspect=pixel_aspect)
 

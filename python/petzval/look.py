@@ -33,7 +33,11 @@ class Look:
         look = cls.__new__(cls)
         look._lens = None
         look._handle = ctypes.POINTER(_declared.petzval_look)()
-        call("petzval_look_from_json", text.encode(), ctypes.byref(look._handle))
+        errors.of_type(text, str, "look", "text")
+        try:
+            call("petzval_look_from_json", text.encode(), ctypes.byref(look._handle))
+        except errors.Error as why:
+            raise type(why)(f"look: {why}") from None
         return look
 
     @classmethod

@@ -12,7 +12,7 @@ from ._library import call, library, made, names, struct
 from ._pixels import pixels_of
 from .arrays import Array, like
 from .look import Look, as_look
-from .shot import Shot, Window, rect
+from .shot import Shot, Window, rect, shot_struct
 
 
 @dataclasses.dataclass
@@ -63,10 +63,10 @@ class Session:
         done, 0…1; False from it cancels, and its exceptions end the frame and are raised here. The GIL is released;
         Ctrl-C ends the frame. Raises the errors of the C API, Cancelled among them.
         """
-        given, kept = shot._struct()
+        given, kept = shot_struct(shot)
         images = [_image_for(shot, given, region) for _ in shot.layers]
         if images:
-            given, kept = shot._struct(images)
+            given, kept = shot_struct(shot, images)
         image = _image_for(shot, given, region) if out is None else out
         into, held = pixels_of(image, "out", written=True)
         report = self._run("petzval_defocus", (), given, look, ctypes.byref(into), progress, region)
@@ -81,10 +81,10 @@ class Session:
         shot.colour is the result of the stage before. All stages in turn give the bits of defocus(), for looks
         without expand_highlights and shots without mask. "blur" makes the shot's layers, too.
         """
-        given, kept = shot._struct()
+        given, kept = shot_struct(shot)
         images = [_image_for(shot, given, None) for _ in shot.layers] if stage == "blur" else []
         if images:
-            given, kept = shot._struct(images)
+            given, kept = shot_struct(shot, images)
         image = _image_for(shot, given, None) if out is None else out
         into, held = pixels_of(image, "out", written=True)
         report = self._run("petzval_defocus_stage", (stage.encode(),), given, look, ctypes.byref(into), progress, None)
@@ -96,7 +96,7 @@ class Session:
               contrast: float = 1, tone: str = "filmic", transfer: str = "srgb", dither: bool = True,
               progress: Callable[[float], object] | None = None) -> Codes:
         """A frame developed to codes of a display over the display window: (height, width, 3), 8 or 16 bits."""
-        given, kept = shot._struct()
+        given, kept = shot_struct(shot)
         width, height = shot.size
         x0, y0, x1, y1 = shot.display_window or shot.data_window or (0, 0, width, height)
         height, width = y1 - y0, x1 - x0
@@ -123,7 +123,7 @@ class Session:
 
     def region_margin_px(self, shot: Shot, look: Look | str | dict | None = None) -> int:
         """How many pixels around a region its result depends on."""
-        given, kept = shot._struct()
+        given, kept = shot_struct(shot)
         chosen = as_look(look)
         margin = ctypes.c_int()
         call("petzval_region_margin_px", self._open(), ctypes.byref(given), chosen._handle, ctypes.byref(margin))

@@ -11,7 +11,7 @@ from ._library import call, library, made, names, struct
 from ._pixels import pixels_of
 from .arrays import Array, like
 from .look import Look, as_look
-from .shot import Shot, Window, rect
+from .shot import Shot, Window, rect, shot_struct
 
 @dataclasses.dataclass
 class Frame:

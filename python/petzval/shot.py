@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import ctypes
 import dataclasses
+import numbers
 from typing import Any, Sequence
 
 from . import _declared, errors
@@ -119,7 +120,7 @@ class Shot:
     def _struct(self, outs: Sequence[Any] = ()) -> tuple[_declared.petzval_shot, Kept]:
         """The C struct and what it points at. outs: where layers are written. Raises InvalidArgument."""
         if (self.depth_m is None) == (self.radii_px is None):
-            raise errors.InvalidArgument("shot: one of depth_m and radii_px, and not both")
+            raise errors.InvalidArgument("shot needs either depth_m or radii_px")
         colour, kept = pixels_of(self.colour, "colour")
         members: dict[str, Any] = {"colour": ctypes.pointer(colour)}
         for name in ("depth_m", "radii_px", "mask"):
@@ -128,14 +129,15 @@ class Shot:
                 plane, owners = plane_of(array, name)
                 members[name] = ctypes.pointer(plane)
                 kept += owners
-        for name in ("deep", "behind", "holdout", "camera"):
+        for name, kind in (("deep", Deep), ("behind", Deep), ("holdout", Deep), ("camera", Camera)):
             value = getattr(self, name)
-            members[name] = pointer(None if value is None else value._struct())
+            members[name] = pointer(None if value is None else _petzvals(value, kind, name)._struct())
         members["depth_meaning"] = pointer(self._depth_meaning())
         layers, owners = _layers(self.layers, outs)
         kept += owners
         members.update(layers=layers, layer_count=len(self.layers))
-        lights = (_declared.petzval_light * max(1, len(self.lights)))(*[dataclasses.astuple(l) for l in self.lights])
+        points = [dataclasses.astuple(_petzvals(light, Light, f"lights[{i}]")) for i, light in enumerate(self.lights)]
+        lights = (_declared.petzval_light * max(1, len(points)))(*points)
         members.update(lights=lights, light_count=len(self.lights), pixel_aspect=self.pixel_aspect,
                        display_window=rect(self.display_window), data_window=rect(self.data_window))
         return struct(_declared.petzval_shot, **members), kept
@@ -144,7 +146,7 @@ class Shot:
         if self.depth_kind is None and self.depth_unit_m == 1 and self.depth_range is None:
             return None
         kind = None if self.depth_kind is None else self.depth_kind.encode()
-        return struct(_declared.petzval_depth_meaning, kind=kind, unit_m=self.depth_unit_m, range=range_of(self.depth_range))
+        return struct(_declared.petzval_depth_meaning, kind=kind, unit_m=unit_of(self.depth_unit_m), range=range_of(self.depth_range))
 
     @property
     def size(self) -> tuple[int, int]:
@@ -158,6 +160,7 @@ def _layers(layers: Sequence[Layer], outs: Sequence[Any]):
     kept: Kept = []
     pointers = (ctypes.POINTER(_declared.petzval_layer) * max(1, len(layers)))()
     for i, layer in enumerate(layers):
+        _petzvals(layer, Layer, f"layers[{i}]")
         colour, owners = pixels_of(layer.colour, f"layers[{i}]")
         made = struct(_declared.petzval_layer, colour=ctypes.pointer(colour), is_matte=int(layer.is_matte),
                       spectrum=layer.spectrum.encode() if layer.spectrum else None)
@@ -169,6 +172,23 @@ def _layers(layers: Sequence[Layer], outs: Sequence[Any]):
         pointers[i] = ctypes.pointer(made)
         kept.append(made)
     return pointers, kept
+
+
+def _petzvals(value, kind: type, name: str):
+    """The value, which must be of this class of petzval. Raises InvalidArgument."""
+    return errors.of_type(value, kind, name, f"a petzval.{kind.__name__}")
+
+
+def shot_struct(shot: Shot, outs: Sequence[Any] = ()):
+    """Shot._struct() of an argument that may be something else. Raises InvalidArgument."""
+    return _petzvals(shot, Shot, "shot")._struct(outs)
+
+
+def unit_of(metres: float) -> float:
+    """Metres per unit of depth; the C API takes 0 for its default. Raises InvalidArgument."""
+    if errors.of_type(metres, numbers.Real, "depth_unit_m", "a number") == 0:
+        raise errors.InvalidArgument("depth_unit_m is 0; it must be > 0 metres per unit")
+    return metres
 
 
 def range_of(ends: Sequence[float] | None):

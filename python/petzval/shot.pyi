@@ -3,6 +3,7 @@
 from __future__ import annotations
 import ctypes
 import dataclasses
+import numbers
 from typing import Any, Sequence
 from . import _declared, errors
 from ._library import struct
@@ -83,6 +84,12 @@ class Shot:
     @property
     def size(self) -> tuple[int, int]:
         """(width, height) of the picture."""
+
+def shot_struct(shot: Shot, outs: Sequence[Any]=()):
+    """Shot._struct() of an argument that may be something else. Raises InvalidArgument."""
+
+def unit_of(metres: float) -> float:
+    """Metres per unit of depth; the C API takes 0 for its default. Raises InvalidArgument."""
 
 def range_of(ends: Sequence[float] | None):
     """Both ends of a range of depth as the C API has them; None: null. Raises InvalidArgument."""

@@ -69,7 +69,7 @@ class Depth(unittest.TestCase):
     def test_a_meaning_that_is_none_is_refused(self):
         metres = np.full((24, 32), 2, np.float32)
         for given, says in (({"depth_kind": "z"}, "depth_meaning.kind"), ({"depth_kind": "normalized"}, "depth.range"),
-                            ({"depth_range": (1, 2, 3)}, "two are needed")):
+                            ({"depth_range": (1, 2, 3)}, "two are needed"), ({"depth_unit_m": 0}, "depth_unit_m is 0")):
             with self.assertRaisesRegex(petzval.InvalidArgument, says):
                 self.frame(depth_m=metres, **given)
 
@@ -86,7 +86,7 @@ class Looks(unittest.TestCase):
     def test_an_unknown_field_is_refused_with_the_one_that_was_meant(self):
         with self.assertRaisesRegex(petzval.InvalidArgument, "lens.blades"):
             petzval.Look(**{"lens.blade": 5})
-        with self.assertRaises(petzval.InvalidFile):
+        with self.assertRaisesRegex(petzval.InvalidFile, "^look: is not JSON"):
             petzval.Look.from_json("{")
 
     def test_a_link_of_the_lens_lab_and_a_preset_are_looks(self):
@@ -208,6 +208,22 @@ class Frames(unittest.TestCase):
             closed = petzval.Session()
             closed.close()
             closed.defocus(shot())
+
+    def test_a_value_of_another_type_is_refused_by_its_name(self):
+        given = {"depth_m": np.full((24, 32), 2, np.float32), "camera": petzval.Camera()}
+        for wrong, says in (({"camera": {"focal_length_mm": 50}}, "^camera is dict; a petzval.Camera is needed"),
+                            ({"camera": petzval.Camera("50mm")}, "^focal_length_mm is str; a number is needed"),
+                            ({"depth_unit_m": "1cm"}, "^depth_unit_m is str; a number is needed"),
+                            ({"lights": "lights.csv"}, r"^lights\[0\] is str; a petzval.Light is needed"),
+                            ({"layers": {"key": 1}}, r"^layers\[0\] is str; a petzval.Layer is needed"),
+                            ({"look": "doublet"}, "^look: is not JSON"), ({"look": 3}, "^look is int"),
+                            ({"behind": given["depth_m"]}, "^behind is ndarray; a petzval.Deep is needed")):
+            with self.subTest(says), self.assertRaisesRegex((petzval.InvalidArgument, petzval.InvalidFile), says):
+                petzval.defocus(shot().colour, **{**given, **wrong})
+        with self.assertRaisesRegex(petzval.InvalidArgument, "^shot is ndarray; a petzval.Shot is needed"), petzval.Session() as session:
+            session.defocus(given["depth_m"])
+        with self.assertRaisesRegex(petzval.InvalidArgument, "^lens is NoneType; a name or a path is needed"):
+            petzval.Lens(None)
 
     def test_progress_rises_and_may_cancel(self):
         shares = []

@@ -138,7 +138,8 @@ def chosen_look(wish):
         with open(bpy.path.abspath(wish.look_file), encoding="utf-8") as file:
             return petzval.Look.from_json(file.read())
     except (OSError, UnicodeDecodeError, petzval.Error) as why:
-        raise Refused(f"the look {wish.look_file} cannot be read: {getattr(why, 'strerror', None) or why}") from None
+        reason = getattr(why, "strerror", None) or str(why).removeprefix("look: ")
+        raise Refused(f"the look {wish.look_file} cannot be read: {reason}") from None
 
 
 def look_of(wish, numbers):
