@@ -112,13 +112,35 @@ static petzval_session* session(void) {
     return opened;
 }
 
+/* True for the path of a file, false for JSON and links of the lens lab. */
+static gboolean is_path(const char* look) {
+    while (g_ascii_isspace(*look)) ++look;
+    return *look != '{' && !g_str_has_prefix(look, "lens=") && !strstr(look, "#lens=");
+}
+
 /* The look of a text: JSON, a link of the lens lab, or the path of a file. */
 static petzval_status look_of_text(const char* text, petzval_look** look) {
     char* read = NULL;
-    const petzval_status status =
-        petzval_look_from_json(g_file_get_contents(text, &read, NULL, NULL) ? read : text, look);
+    if (is_path(text)) g_file_get_contents(text, &read, NULL, NULL);
+    const petzval_status status = petzval_look_from_json(read ? read : text, look);
     g_free(read);
     return status;
+}
+
+/* Why a given look is refused, or NULL. The caller frees it. */
+static char* fault_of_look(const char* text) {
+    GError* why = NULL;
+    char *read = NULL, *fault = NULL;
+    petzval_look* look = NULL;
+    if (!text_given(text)) return NULL;
+    if (is_path(text) && !g_file_get_contents(text, &read, NULL, &why))
+        fault = g_strdup_printf("look: %s", why->message);
+    else if (petzval_look_from_json(read ? read : text, &look))
+        fault = g_strdup_printf("look: %s", petzval_error_text());
+    petzval_look_close(look);
+    g_clear_error(&why);
+    g_free(read);
+    return fault;
 }
 
 static petzval_status look_of(const Defocus* self, petzval_look** look) {
@@ -158,10 +180,13 @@ static gboolean process(GeglOperation* operation, GeglBuffer* input, GeglBuffer*
     if (!input || !count) return TRUE;
     float* rgba = g_try_malloc_n(count, 16);
     float* depth = g_try_malloc_n(count, 4);
+    char* const fault = fault_of_look(self_of(operation)->look);
     if (!aux) {
         g_warning("petzval:defocus: connect depth to the pad aux");
     } else if (text_given(self_of(operation)->preset) && text_given(self_of(operation)->look)) {
         g_warning("petzval:defocus: preset and look are both given; empty one of them");
+    } else if (fault) {
+        g_warning("petzval:defocus: %s", fault);
     } else if (!rgba || !depth) {
         g_warning("petzval:defocus: no memory for %d x %d pixels", all.width, all.height);
     } else {
@@ -172,10 +197,10 @@ static gboolean process(GeglOperation* operation, GeglBuffer* input, GeglBuffer*
             gegl_buffer_get(input, &all, 1, light, rgba, GEGL_AUTO_ROWSTRIDE, GEGL_ABYSS_NONE);
         }
         gegl_buffer_set(output, &all, 0, light, rgba, GEGL_AUTO_ROWSTRIDE);
-        g_free(rgba), g_free(depth);
+        g_free(rgba), g_free(depth), g_free(fault);
         return TRUE;
     }
-    g_free(rgba), g_free(depth);
+    g_free(rgba), g_free(depth), g_free(fault);
     gegl_buffer_copy(input, result, GEGL_ABYSS_NONE, output, result);
     return TRUE;
 }

@@ -157,7 +157,7 @@ class Doors(unittest.TestCase):
 
     def test_gegl_warns_and_passes_the_picture_on(self):
         for properties, aux, says in ((self.CAMERA, False, "connect depth"), (("lens=no-such-lens",), True, "no-such-lens"),
-                                      (("look=nonsense",), True, "JSON"),
+                                      (("look=missing.look",), True, "look: Failed to open file"), (("look={",), True, "look: is not JSON"),
                                       (("preset=acromat",), True, "did you mean achromat"),
                                       (("preset=night", "look=own.look"), True, "both given")):
             self.assertIn(says, self.gegl("gegl-refused", *properties, aux=aux))
