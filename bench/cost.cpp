@@ -167,7 +167,7 @@ int main(int count, char** words) {
     const auto mounted = kernel::make_lens(job.lens, {job.camera, width, height});
     if (!mounted) fail(mounted.error().message);
     const auto context = any_context();
-    if (!context) fail("no device of Vulkan");
+    if (!context) fail("no Vulkan device");
     const Piece counters = count_from_here(*context);
     Picture out(width, height);
     const auto lens = std::make_shared<const engine::RealtimeLens>(

@@ -1,4 +1,4 @@
-// One picture drawn by a device of Vulkan, each of its passes timed by the device's own clock: what `./dev
+// One picture drawn by a Vulkan device, each of its passes timed by the device's own clock: what `./dev
 // bench gpu` runs. The first frame is not counted. Beside bench/job.h's flags: --device; --engine glare is
 // all glare but ghosts, of both qualities of stars, over the picture as it is; --engine develop the codes of
 // a frame that engine gaussian draws, 8 bits each.

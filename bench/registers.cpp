@@ -97,7 +97,7 @@ void print_said(const Opened& opened, VkPipeline pipeline) {
 int main() {
     const auto instance = Instance::open();
     if (!instance) fail(instance.error().message);
-    if ((*instance)->candidates().empty()) fail("no device of Vulkan");
+    if ((*instance)->candidates().empty()) fail("no Vulkan device");
     const Candidate& candidate = (*instance)->candidates().front();
     Functions vk = (*instance)->functions();
     const Opened opened{&vk, open_device(vk, candidate), candidate.name};

@@ -16,7 +16,7 @@ inline void must(VkResult result, const char* what) { must(result == VK_SUCCESS,
 
 // 77: what tests take for "skipped".
 [[noreturn]] inline void no_device() {
-    std::fprintf(stderr, "no device of Vulkan: nothing was drawn\n");
+    std::fprintf(stderr, "no Vulkan device: nothing was drawn\n");
     std::exit(77);
 }
 

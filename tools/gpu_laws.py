@@ -92,7 +92,7 @@ def main():
         failed += [f"{suite} on {driver}" for suite in more[2]]
     print(f"{tests} tests, {skipped} of them skipped; " + ("failed: " + ", ".join(failed) if failed else "all silent"))
     if not tests:
-        sys.exit("gpu-laws: no test was run (is a driver of Vulkan installed?)")
+        sys.exit("gpu-laws: no test was run (is a Vulkan driver installed?)")
     sys.exit(1 if failed else 0)
 
 

@@ -2,7 +2,7 @@
 packages.
 
 Usage: guide_pictures.py PROGRAM [NAME…]. Writes docs/pictures/guide-NAME.png, or .svg. OpenFX needs `ninja petzval_ofx
-ofx_check`, GEGL its operation, `gegl` and `oiiotool`, the kit a driver of Vulkan.
+ofx_check`, GEGL its operation, `gegl` and `oiiotool`, the kit a Vulkan driver.
 """
 import os
 import pathlib

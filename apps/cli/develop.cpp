@@ -74,8 +74,8 @@ void check(DevelopVerbFlags& flags, const Verb& verb) {
     flags.look.settle();
     if (flags.look.given({"Glare"}).empty() && (flags.camera.any() || !flags.look.given({"Lens"}).empty()))
         throw UsageError(
-            "camera and lens are for glare, as in --star 0.1 --blades 6; without it they have no "
-            "effect");
+            "the flags of camera and lens apply to glare, and none is set; for example: --star 0.1 --blades "
+            "6");
     require_png(flags.output);
     flags.input.read.need_depth = false;
     flags.ocio.check(flags.develop, flags.input.transfer);

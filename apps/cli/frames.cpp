@@ -60,7 +60,8 @@ bool is_sequence(const FrameFlags& frames, const std::vector<std::string>& input
     if (!output.empty() && !to_many && frames.frames.size() != 1)
         throw UsageError("-o " + output + ": the output of many frames must contain #### or %04d");
     if (!run.json.empty() && !has_pattern(run.json))
-        throw UsageError("--json of many frames needs #### or %04d in its name; --report takes them all");
+        throw UsageError(
+            "--json of many frames needs #### or %04d in its name; --report writes all frames to one file");
     return true;
 }
 

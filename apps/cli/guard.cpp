@@ -22,7 +22,7 @@ bool never_replaces() { return g_never_replaces; }
 bool is_left_alone(const std::string& path) {
     std::error_code missing;
     if (!g_never_replaces || path.empty() || !std::filesystem::exists(path, missing)) return false;
-    note(path + ": already there, left alone (--no-clobber)");
+    note(path + ": exists and is kept (--no-clobber)");
     return true;
 }
 

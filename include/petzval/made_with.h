@@ -65,8 +65,8 @@ PETZVAL_API OutputState state_of(const std::vector<std::string>& outputs,
 // True if an EXR or PNG can be read to its end. Another program or a full disk may have truncated it.
 PETZVAL_API bool is_whole_picture(const std::string& path);
 
-// For outputs that are kept one by one: "PATH: left alone, though damaged or cut off" for each picture among
-// them that is not whole. (A FrameLoop makes such frames again.)
+// For outputs that are kept one by one: "PATH: kept, although it is damaged or cut off" for each picture
+// among them that is not whole. (A FrameLoop makes such frames again.)
 PETZVAL_API std::vector<std::string> damage_of_kept(const std::vector<std::string>& outputs);
 
 }  // namespace petzval

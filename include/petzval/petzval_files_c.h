@@ -58,8 +58,8 @@ PETZVAL_C_API const petzval_pixels* petzval_files_truth(const petzval_shot_file*
 /* {"detected", "warnings", "layers", "views", "has_alpha", "display_referred"}. Lives as long as the file. */
 PETZVAL_C_API const char* petzval_files_json(const petzval_shot_file* file);
 /* Writes an EXR: `colour` and the layers' pictures (layer_count of them, in the shot's order; 0: as read)
- * replace those of the input; everything else is the input's. The name of `path` must end in .exr. The file is
- * complete or untouched. Errors: invalid_file, output_failed. */
+ * replace those of the input; everything else is the input's. The name of `path` must end in .exr. The file
+ * is complete or untouched. Errors: invalid_file, output_failed. */
 PETZVAL_C_API petzval_status petzval_files_write_like(const petzval_shot_file* file,
                                                       const petzval_pixels* colour,
                                                       const petzval_pixels* const* layers,

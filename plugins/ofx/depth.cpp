@@ -67,7 +67,7 @@ struct Stored {
 Result<Stored> of_clip(const DepthQuestion& q, const char* clip) {
     const LentImage depth(q.effect, clip, q.time);
     if (!depth.is_there()) return refused(std::string("the clip ") + clip + " has no image at this frame");
-    if (!depth.is_readable()) return refused(std::string("the clip ") + clip + " is not of float pixels");
+    if (!depth.is_readable()) return refused(std::string("the clip ") + clip + " must have float pixels");
     const int channel = is_in_alpha(depth) ? 3 : 0;
     return Stored{plane_like(*q.source, [&](int x, int y) { return depth.value(x, y, channel, kMiss); })};
 }

@@ -72,7 +72,7 @@ struct Menu {
     int usual = 0;
 };
 
-constexpr const char* kOfTheLook = "as the look says";
+constexpr const char* kOfTheLook = "from the look";
 
 std::vector<std::string> engines() {
     std::vector<std::string> words{kOfTheLook};

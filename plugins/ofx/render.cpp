@@ -126,7 +126,8 @@ petzval_plane plane_of(Plane& values) {
 Status take_plate(const DepthQuestion& q, Scene& scene) {
     if (!is_connected(q.effect, kPlateClip)) return Done{};
     const LentImage plate(q.effect, kPlateClip, q.time);
-    if (!plate.is_readable() || plate.channels() != 4) return refused("the clip Plate is not of RGBA floats");
+    if (!plate.is_readable() || plate.channels() != 4)
+        return refused("the clip Plate must have RGBA float pixels");
     if (!is_connected(q.effect, kPlateDepthClip))
         return refused("the clip Plate needs its depth: connect the clip PlateDepth");
     const auto depth = plate_depth_of(q);
@@ -286,12 +287,12 @@ int render(ofx::Effect* effect, const Properties& in) {
     const LentImage output(effect, ofx::kOutput, job.time), source(effect, ofx::kSource, job.time);
     if (!output.is_there()) return ofx::kFailed;
     if (!output.is_readable() || output.channels() != 4)
-        return failed("Output is not of RGBA float pixels", ofx::kImageFormat);
+        return failed("Output must have RGBA float pixels", ofx::kImageFormat);
     if (is_empty(job.window)) return ofx::kOk;
     if (!holds(output.bounds(), job.window))
         return failed("Output does not contain the render window", ofx::kFailed);
     if (source.is_there() && (!source.is_readable() || source.channels() != 4))
-        return failed("Source is not of RGBA float pixels", ofx::kImageFormat);
+        return failed("Source must have RGBA float pixels", ofx::kImageFormat);
     job.source = &source;
     job.output = &output;
     const ofx::RectI part = source.is_there() ? intersected(job.window, source.bounds()) : ofx::RectI{};

@@ -69,9 +69,9 @@ Status Asked::compare(const petzval_shot* given, const petzval_look* chosen, con
 Status Asked::check_out(const ColourView& out, const char* name) const {
     const Rect made = window();
     if (made.empty() || (out.width == made.width() && out.height == made.height())) return Done{};
-    return refused(control.region ? std::string(name) +
-                                        " must be of the size of the part of the region inside the picture"
-                                  : std::string(name) + " and the shot's colour must be of one size");
+    return refused(control.region
+                       ? std::string(name) + " must have the size of the region's part inside the picture"
+                       : std::string(name) + " and the shot's colour must have the same size");
 }
 
 Status Asked::read(const petzval_look* chosen) {
@@ -204,7 +204,7 @@ petzval_status take_codes(petzval_session& session, Asked& asked, const petzval_
     asked.control.codes = *wanted;
     auto frame = session.session.take(asked.shot.rendered, asked.look, asked.control);
     if (!frame) return fail(frame.error());
-    if (frame->codes.empty()) return fail(PETZVAL_UNSUPPORTED, "a view of an engine has no codes");
+    if (frame->codes.empty()) return fail(PETZVAL_UNSUPPORTED, "a view of an engine has no display codes");
     give(*frame, asked.shot.warnings, report);
     write_codes(frame->codes, into);
     return PETZVAL_OK;

@@ -40,9 +40,9 @@ petzval_status guarded(const Body& body) noexcept {
     } catch (const std::bad_alloc&) {
         return fail(PETZVAL_OUT_OF_MEMORY, "out of memory");
     } catch (const std::exception& e) {
-        return fail(PETZVAL_INTERNAL, std::string("a fault of petzval: ") + e.what());
+        return fail(PETZVAL_INTERNAL, std::string("an internal error: ") + e.what());
     } catch (...) {
-        return fail(PETZVAL_INTERNAL, "a fault of petzval");
+        return fail(PETZVAL_INTERNAL, "an internal error");
     }
 }
 

@@ -13,7 +13,7 @@ constexpr int kLargestSide = 1 << 20;  // pixels; keeps sizes and addresses far 
 Status check_size(int width, int height, const char* name) {
     if (width > 0 && height > 0 && width <= kLargestSide && height <= kLargestSide) return Done{};
     return refused(std::string(name) + " is " + std::to_string(width) + "x" + std::to_string(height) +
-                   " pixels; 1 to " + std::to_string(kLargestSide) + " a side");
+                   " pixels; each side must be 1 to " + std::to_string(kLargestSide));
 }
 
 SampleType type_of(petzval_sample sample) {
@@ -37,7 +37,7 @@ Status check_layout(int width, int height, petzval_sample sample, std::ptrdiff_t
         if (count > 1 && (bytes > kFarthest || bytes < -kFarthest || (bytes < least && bytes > -least)))
             return refused(std::string(name) + ": " + called + " is " + std::to_string(bytes) +
                            " bytes; samples of " + std::to_string(least) +
-                           " bytes lie at least so far apart");
+                           " bytes need at least that distance");
     return Done{};
 }
 
@@ -80,7 +80,8 @@ Result<SessionSettings> session_settings_of(const petzval_session_settings* give
     const petzval_session_settings s = taken(given);
     if (s.threads < 0 || s.threads > kMostThreads)
         return Error{ErrorCode::InvalidArgument, "session.threads is " + std::to_string(s.threads) +
-                                                     "; 0 (all) to " + std::to_string(kMostThreads)};
+                                                     "; it must be 0 (all) to " +
+                                                     std::to_string(kMostThreads)};
     SessionSettings settings;
     settings.threads = s.threads;
     settings.max_memory_bytes = std::size_t(s.max_memory_bytes);
@@ -114,7 +115,7 @@ Status check_plane(const petzval_plane* given, int width, int height, const char
         return check_layout(width, height, p.sample, p.pixel_stride, p.row_stride, name);
     return refused(std::string(name) + " is " + std::to_string(p.width) + "x" + std::to_string(p.height) +
                    " and colour " + std::to_string(width) + "x" + std::to_string(height) +
-                   "; they must be of one size");
+                   "; they must have the same size");
 }
 
 Plane read_plane(const petzval_plane* given) {

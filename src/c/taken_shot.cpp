@@ -17,7 +17,7 @@ Status check_deep(const petzval_deep* given, const ColourView& colour, const cha
     if (!given) return Done{};
     const petzval_deep deep = taken(given);
     if (deep.width != colour.width || deep.height != colour.height)
-        return refused(std::string(name) + " is not of the size of colour");
+        return refused(std::string(name) + " must have the size of colour");
     if (!deep.first || (!deep.samples && deep.sample_count > 0))
         return refused(std::string(name) + ": first or samples is null");
     constexpr std::uint64_t kMost = std::uint64_t(1) << 36;  // more than memory holds
@@ -69,7 +69,7 @@ Result<Place> place_of(const petzval_shot& shot, const ColourView& colour) {
     place.display_window = display.empty() ? place.data_window : display;
     if (shot.pixel_aspect != 0) place.pixel_aspect = shot.pixel_aspect;
     if (Status ok = check(place); !ok) return ok.error();
-    if (!place.fits(colour.width, colour.height)) return refused("data_window is not of the picture's size");
+    if (!place.fits(colour.width, colour.height)) return refused("data_window must have the picture's size");
     return place;
 }
 
@@ -121,7 +121,7 @@ Result<ComparedLayer> compared_layer(const petzval_layer* given, const ColourVie
     auto view = colour_view(layer.colour, name.c_str());
     if (!view) return view.error();
     if (view->width != colour.width || view->height != colour.height)
-        return refused(name + " is not of the size of colour");
+        return refused(name + " must have the size of colour");
     compared.colour = *view;
     compared.is_light = layer.is_matte == 0;
     if (layer.spectrum) {
@@ -139,8 +139,8 @@ Result<ComparedLayer> compared_layer(const petzval_layer* given, const ColourVie
 Result<std::vector<ComparedLayer>> compared_layers(const petzval_shot& shot, const ColourView& colour) {
     constexpr std::uint64_t kMost = 1024;
     if (shot.layer_count > kMost || (shot.layer_count > 0 && !shot.layers))
-        return refused("layer_count is " + std::to_string(shot.layer_count) + "; 0 to " +
-                       std::to_string(kMost) + ", with layers");
+        return refused("layer_count is " + std::to_string(shot.layer_count) + "; it must be 0 to " +
+                       std::to_string(kMost) + ", and layers must not be null");
     std::vector<ComparedLayer> layers;
     for (std::uint64_t i = 0; i < shot.layer_count; ++i) {
         auto layer = compared_layer(shot.layers[i], colour, "layers[" + std::to_string(i) + "]");
@@ -158,7 +158,7 @@ Result<ComparedShot> ComparedShot::compare(const petzval_shot* given) {
     const auto colour = colour_view(shot.colour, "colour");
     if (!colour) return colour.error();
     if ((shot.depth_m != nullptr) == (shot.radii_px != nullptr))
-        return refused("shot: one of depth_m and radii_px, and not both");
+        return refused("shot needs either depth_m or radii_px");
     for (const auto& [plane, name] :
          {std::pair{shot.depth_m, "depth_m"}, {shot.radii_px, "radii_px"}, {shot.mask, "mask"}})
         if (plane)

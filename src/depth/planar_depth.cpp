@@ -184,9 +184,9 @@ DepthReport report_of(const Tally& before, const Tally& after, const DepthSettin
     report.farthest_finite_m = any ? after.farthest : 0;
     if (before.negative > 0)
         report.warnings.push_back(before.positive == 0
-                                      ? "every depth is negative: its absolute values were taken"
+                                      ? "every depth is negative; the absolute values are used"
                                       : std::to_string(before.negative) +
-                                            " negative depths were taken as infinitely far");
+                                            " negative depths count as infinitely far");
     if (before.beyond_1 && is_ranged(settings))
         report.warnings.emplace_back("depth has values above 1, beyond the ends of depth.range");
     if (!any) report.warnings.emplace_back("no pixel has a finite depth: everything is infinitely far");

@@ -58,9 +58,9 @@ constexpr Row kRows[] = {
     {"V-Ray", "cameraFov", Quantity::FieldOfView, from_degrees},
     // Arnold rescales both, so only their ratio is that of the scene's camera.
     {"Arnold", "CameraFocalLength", Quantity::FocalLength, as_is, false,
-     "Arnold keeps the view, not the scale"},
+     "Arnold keeps the field of view, not the size of the sensor"},
     {"Arnold", "CameraFilmApertureHorizontal", Quantity::SensorWidth, as_is, false,
-     "Arnold keeps the view, not the scale"},
+     "Arnold keeps the field of view, not the size of the sensor"},
     {"Redshift", "rs/camera/aperture", Quantity::SensorWidth, from_inches_or_mm, false,
      "below 5 taken as inches"},
     {"Redshift", "rs/camera/fov", Quantity::FieldOfView, from_radians_or_degrees, false,

@@ -20,7 +20,7 @@ public:
         if (!value(root, 0)) return *error_;
         skip_space();
         if (at_ < text_.size()) {
-            fail("more follows after the end of the JSON value");
+            fail("text follows the end of the JSON value");
             return *error_;
         }
         return root;

@@ -156,8 +156,7 @@ Result<OcioPicture> ocio_codes(View<const Rgba> picture, const OcioView& view, i
     std::error_code missing;
     const auto kind = std::filesystem::status(path, missing).type();
     if (kind != std::filesystem::file_type::regular && kind != std::filesystem::file_type::not_found)
-        return Error{ErrorCode::InvalidFile,
-                     "$OCIO " + std::string(path) + ": is not a regular file; a pipe would be waited for"};
+        return Error{ErrorCode::InvalidFile, "$OCIO " + std::string(path) + ": is not a regular file"};
     try {
         OCIO::SetLoggingLevel(OCIO::LOGGING_LEVEL_NONE);
         return codes_by(*OCIO::Config::CreateFromFile(path), picture, view, *workers_of(threads, workers));

@@ -81,8 +81,7 @@ Error unknown(const std::string& name) {
 }
 
 Error lit_as_seen(const std::string& name) {
-    return {ErrorCode::InvalidArgument,
-            "scene.lit_in_codes has no effect: " + name + " is shaded as it is seen, not lit once",
+    return {ErrorCode::InvalidArgument, "scene.lit_in_codes has no effect: " + name + " has no baked light",
             "scene.lit_in_codes"};
 }
 

@@ -93,7 +93,7 @@ TEST_F(SceneFilesTest, ExistingFilesAreKeptAndTheOthersMade) {
     EXPECT_EQ(made->state, FrameRecord::State::Made);
     EXPECT_EQ(fs::last_write_time(files.output), before);
     EXPECT_TRUE(fs::exists(files.truth));
-    EXPECT_TRUE(was_said(files.output + ": already there, left alone (run.keep)"));
+    EXPECT_TRUE(was_said(files.output + ": exists and is kept (run.keep)"));
     EXPECT_EQ(make_scene_files(files)->state, FrameRecord::State::Kept);
 }
 
@@ -124,8 +124,8 @@ TEST_F(SceneFilesTest, ADamagedFileThatIsKeptIsNamed) {
     fs::resize_file(files.truth, fs::file_size(files.truth) / 2);
     files.existing = ExistingOutputs::Keep;
     EXPECT_EQ(make_scene_files(files, host)->state, FrameRecord::State::Kept);
-    EXPECT_TRUE(was_said(files.truth + ": left alone, though damaged or cut off"));
-    EXPECT_FALSE(was_said(files.output + ": left alone, though damaged or cut off"));
+    EXPECT_TRUE(was_said(files.truth + ": kept, although it is damaged or cut off"));
+    EXPECT_FALSE(was_said(files.output + ": kept, although it is damaged or cut off"));
 }
 
 // A full disk may have cut a frame.

@@ -143,7 +143,8 @@ Status FrameLoop::State::find_missing() {
         return Error{ErrorCode::InvalidFile,
                      what + "; run.missing skip leaves these frames out" +
                          (work.black ? ", run.missing black writes black frames" : "")};
-    say(Say::Warning, what + (how == MissingFiles::Skip ? "; left out" : "; made black"));
+    say(Say::Warning, what + (how == MissingFiles::Skip ? "; these frames are left out"
+                                                        : "; these frames are written black"));
     if (how == MissingFiles::Skip) std::erase_if(frames, [&](int frame) { return contains(missing, frame); });
     if (frames.empty() || (how == MissingFiles::Black && missing.size() == frames.size()))
         return Error{ErrorCode::InvalidFile, "no frame has all its files"};
@@ -261,7 +262,7 @@ void FrameLoop::State::tell(const FrameRecord& record, std::size_t number, const
     const std::size_t left = frames.size() - number - 1;
     std::string state = record.state == FrameRecord::State::Failed ? "failed"
                         : is_made                                  ? plain(record.seconds, 3) + " s"
-                                                                   : "left as it is";
+                                                                   : "kept";
     if (is_made && !record.why.empty()) state += ", made again: " + record.why;
     const std::string rest =
         left == 0 || made_count == 0

@@ -146,8 +146,7 @@ OutputState state_of(const std::vector<std::string>& outputs, const std::vector<
     if (existing == ExistingOutputs::Replace || outputs.empty()) return {};
     for (const std::string& path : outputs)
         if (!exists(path)) return {};
-    if (existing == ExistingOutputs::Keep)
-        return {true, listed(outputs) + ": already there, left alone (run.keep)"};
+    if (existing == ExistingOutputs::Keep) return {true, listed(outputs) + ": exists and is kept (run.keep)"};
     std::error_code missing;
     auto oldest = fs::file_time_type::max();
     for (const std::string& path : outputs) oldest = std::min(oldest, fs::last_write_time(path, missing));
@@ -176,7 +175,7 @@ std::vector<std::string> damage_of_kept(const std::vector<std::string>& outputs)
     std::vector<std::string> lines;
     for (const std::string& path : outputs)
         if (kind_of_output(path) && !is_whole_picture(path))
-            lines.push_back(path + ": left alone, though damaged or cut off");
+            lines.push_back(path + ": kept, although it is damaged or cut off");
     return lines;
 }
 

@@ -96,7 +96,8 @@ Status Neighbours::check_memory(const Shot& shot) const {
     if (max_memory_bytes_ == 0 || needed <= max_memory_bytes_) return Done{};
     return Error{ErrorCode::OutOfMemory,
                  "read.max_memory_bytes is too little: the frames around " + shot.path + " take more than " +
-                     std::to_string((needed >> 20) + 1) + "M with it; ask for fewer, or give more",
+                     std::to_string((needed >> 20) + 1) +
+                     "M together with it; use fewer neighbours or give more memory",
                  "read.max_memory_bytes"};
 }
 

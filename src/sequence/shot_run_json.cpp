@@ -36,17 +36,17 @@ int whole_in(const Json& value) {
 
 std::size_t count_in(const Json& value) {
     const double number = number_in(value);
-    if (!(number >= 0 && number < 1e18)) throw WrongValue{"is not a count"};
+    if (!(number >= 0 && number < 1e18)) throw WrongValue{"is not a whole number of 0 or more"};
     return std::size_t(number);
 }
 
 std::string text_in(const Json& value) {
-    if (!value.is_string()) throw WrongValue{"is not a text"};
+    if (!value.is_string()) throw WrongValue{"is not a string"};
     return value.get<std::string>();
 }
 
 std::vector<std::string> texts_in(const Json& value) {
-    if (!value.is_array()) throw WrongValue{"is not a list of texts"};
+    if (!value.is_array()) throw WrongValue{"is not a list of strings"};
     std::vector<std::string> texts;
     for (const Json& one : value) texts.push_back(text_in(one));
     return texts;

@@ -254,7 +254,7 @@ TEST(ShotRunSettings, WrongJsonIsRefusedByItsKey) {
              {"[]", "not an object"},
              {"{}", "input is missing"},
              {R"({"input": "a.exr"})", "output is missing"},
-             {R"({"input": 3})", "input is not a text"},
+             {R"({"input": 3})", "input is not a string"},
              {R"({"input": "a.exr", "output": "b.exr", "frame": "1"})", "frame is not known"},
              {R"({"input": "a.exr", "output": "b.exr", "frames": "1-2:3"})", "frames"},
              {R"({"input": "a.exr", "output": "b.exr", "camera": {"f": 2}})", "camera.f is not known"},

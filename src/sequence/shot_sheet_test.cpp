@@ -164,9 +164,7 @@ TEST_F(ShotSheetTest, RecordsOfFramesAreWrittenUnlessTheFrameOrTheRecordIsKept) 
     said.clear();
     develop(true);
     EXPECT_EQ(fs::last_write_time(at("r.0002.json")), before);
-    EXPECT_EQ(
-        std::count(said.begin(), said.end(), at("r.0002.json") + ": already there, left alone (run.keep)"),
-        1);
+    EXPECT_EQ(std::count(said.begin(), said.end(), at("r.0002.json") + ": exists and is kept (run.keep)"), 1);
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ Status check_layers(const FrameRequest& request, const engine::Engine& e) {
                 look.engine,
             "shot.layers");
     if (look.gather.stage != GatherStage::Final || look.gaussian.view != GaussianView::Result)
-        return refuse_engine("shot.layers are blurred for results, not for stages and views", "shot.layers");
+        return refuse_engine("shot.layers are blurred in results, not in stages and views", "shot.layers");
     return Done{};
 }
 

@@ -94,8 +94,7 @@ Result<std::shared_ptr<const device::Device>> open_device(const std::string& cho
         return that_lives(device::cpu_device());
     }
     if (!choices) return refused(choices.error().code, choice + ": " + choices.error().message);
-    if (choices->empty())
-        return refused(ErrorCode::Unsupported, choice + ": no driver of Vulkan is installed");
+    if (choices->empty()) return refused(ErrorCode::Unsupported, choice + ": no Vulkan driver is installed");
     if (!number) return opened(0);
     if (*number >= choices->size())
         return refused(ErrorCode::InvalidArgument,
@@ -125,7 +124,7 @@ Status check_device(const std::string& device) {
 std::string why_no_gpu() {
     const auto choices = vulkan_choices();
     if (!choices) return choices.error().message;
-    return choices->empty() ? "no driver of Vulkan is installed" : "";
+    return choices->empty() ? "no Vulkan driver is installed" : "";
 }
 
 }  // namespace petzval

@@ -92,20 +92,21 @@ Status check_pictures(const Rendered& rendered) {
     if (depth.width() != rendered.colour.width() || depth.height() != rendered.colour.height()) {
         std::ostringstream text;
         text << "depth is " << depth.width() << "x" << depth.height() << " and colour "
-             << rendered.colour.width() << "x" << rendered.colour.height() << "; they must be of one size";
+             << rendered.colour.width() << "x" << rendered.colour.height()
+             << "; they must have the same size";
         return invalid(text.str());
     }
     for (const DeepPicture* deep : {rendered.deep, rendered.behind, rendered.holdout})
         if (deep && !deep->empty() &&
             (deep->width() != rendered.colour.width() || deep->height() != rendered.colour.height()))
-            return invalid("the deep samples, hidden layers or holdout are not of the picture's size");
+            return invalid("the deep samples, hidden layers and holdout must have the picture's size");
     for (const ColourLayer& layer : rendered.layers)
         if (layer.colour.width() != rendered.colour.width() ||
             layer.colour.height() != rendered.colour.height())
-            return invalid("the layers are not of the picture's size");
+            return invalid("the layers must have the picture's size");
     if (!rendered.mask.empty() && (rendered.mask.width() != rendered.colour.width() ||
                                    rendered.mask.height() != rendered.colour.height()))
-        return invalid("shot.mask is not of the picture's size");
+        return invalid("shot.mask must have the picture's size");
     return check(rendered.place);
 }
 
@@ -116,9 +117,9 @@ Status check_request(const FrameRequest& request) {
     const Look& look = request.look;
     if (const Status fit = check_pictures(rendered); !fit) return fit;
     if (!rendered.layers.empty() && request.view != ScatterView::Result)
-        return invalid("shot.layers are blurred for results, not for views");
+        return invalid("shot.layers are blurred in results, not in views");
     if (rendered.lights && !rendered.lights->empty() && look.engine != "sprites")
-        return invalid("given points are drawn by job.engine sprites, not " + look.engine);
+        return invalid("shot.lights are drawn by job.engine sprites, not " + look.engine);
     if (request.view != ScatterView::Result && look.engine != "scatter")
         return invalid(
             "layers, levels of detail, highlights and hidden surfaces exist only in job.engine "

@@ -48,7 +48,7 @@ std::vector<std::string> left_out_of_blur(const Look& look) {
     const auto note = [&](bool is_given, const char* field) {
         if (!is_given) return;
         std::string line = "look.";
-        line.append(field).append(" is not used: this is the blur alone; Session::take() adds light");
+        line.append(field).append(" has no effect on the blur alone; Session::take() applies it");
         warnings.push_back(line);
     };
     note(look.expand_highlights, "expand_highlights");

@@ -46,7 +46,7 @@ Result<DefocusReport> Session::defocus(const DefocusJob& job, const Control& con
 Result<DefocusReport> Session::defocus(Rendered rendered, Look look, const Control& control, Picture spare) {
     if (control.codes)
         return Error{ErrorCode::InvalidArgument,
-                     "control.codes are of whole frames, as Session::take() makes them"};
+                     "control.codes need a whole frame, as Session::take() makes it"};
     std::vector<std::string> unused = left_out_of_blur(look);
     look.expand_highlights = false;
     look.vignetting = false;

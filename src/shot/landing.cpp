@@ -347,7 +347,7 @@ Result<Landings> landings_of(const OtherPicture& other, std::span<const OtherPic
         if (standing < kShareThatFits) return Error{ErrorCode::InvalidArgument, landings.warning};
     }
     if (!by_cameras) return by_cameras.error();
-    if (!has_camera) return cannot(theirs, "by its camera and depth it does not show the same things");
+    if (!has_camera) return cannot(theirs, "its camera and depth show other surfaces than this frame");
     if (standing < kShareThatFits)
         return cannot(theirs, "most of it moves or looks different: by its camera " + percent(standing) +
                                   " of the picture look the same");

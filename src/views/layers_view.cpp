@@ -73,10 +73,9 @@ bool LayersView::read(const EngineView& input, const engine::CompletedPicture& c
         }
     });
     if (most > ranks)
-        shown_.warnings.push_back(
-            "up to " + std::to_string(most) +
-            " surfaces lie behind each other in a pixel; job.view layers shows the nearest " +
-            std::to_string(ranks));
+        shown_.warnings.push_back("up to " + std::to_string(most) +
+                                  " surfaces overlap in a pixel; job.view layers shows the nearest " +
+                                  std::to_string(ranks));
     return false;
 }
 

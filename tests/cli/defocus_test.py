@@ -226,7 +226,7 @@ class Defocus(CommandLineTest):
         os.utime(self.path("in.exr"), (now - 100, now - 100))
         first = stamp()
         self.assertIn("nothing to do", self.succeed("defocus", "in.exr", "-o", "out.exr", "-u").err)
-        self.assertIn("left alone", self.succeed("defocus", "in.exr", "-o", "out.exr", "--no-clobber").err)
+        self.assertIn("exists and is kept", self.succeed("defocus", "in.exr", "-o", "out.exr", "--no-clobber").err)
         self.assertIn("skipped", self.report("defocus", "in.exr", "-o", "out.exr", "-u"))
         self.assertEqual(stamp(), first)
         os.utime(self.path("in.exr"), (now + 100, now + 100))
@@ -234,7 +234,7 @@ class Defocus(CommandLineTest):
         self.assertNotEqual(stamp(), first)
         self.succeed("defocus", "in.exr", "-o", "new.exr", "--no-clobber")
         os.truncate(self.path("new.exr"), os.path.getsize(self.path("new.exr")) // 2)
-        self.assertIn("left alone, though damaged or cut off",
+        self.assertIn("kept, although it is damaged or cut off",
                       self.succeed("defocus", "in.exr", "-o", "new.exr", "--no-clobber").err)
         self.succeed("defocus", "in.exr", "-o", "new.exr", "--overwrite")
 

@@ -243,7 +243,7 @@ class Scene(CommandLineTest):
 
     def test_no_clobber_leaves_a_finished_scene_alone(self):
         self.succeed("scene", "make", "slant", "-o", "s.exr", *self.SMALL)
-        self.assertIn("left alone", self.succeed("scene", "make", "slant", "-o", "s.exr", "--no-clobber").err)
+        self.assertIn("exists and is kept", self.succeed("scene", "make", "slant", "-o", "s.exr", "--no-clobber").err)
 
     def test_no_clobber_names_a_damaged_file(self):
         self.succeed("scene", "make", "slant", "-o", "s.exr", *self.SMALL)
@@ -253,7 +253,7 @@ class Scene(CommandLineTest):
             self.succeed(*line, *(self.SMALL if line[0] == "scene" else []))
             self.assertNotIn("damaged", self.succeed(*line, "--no-clobber").err)
             os.truncate(self.path(output), os.path.getsize(self.path(output)) // 2)
-            self.assertIn(output + ": left alone, though damaged or cut off", self.succeed(*line, "--no-clobber").err)
+            self.assertIn(output + ": kept, although it is damaged or cut off", self.succeed(*line, "--no-clobber").err)
 
 
 if __name__ == "__main__":

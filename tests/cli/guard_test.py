@@ -69,7 +69,7 @@ class Guard(CommandLineTest):
                      ["scene", "make", "slant", "-o", "made.exr", "--width", "20", "--height", "10"],
                      ["lens", "psf", "doublet", "-o", "psf.exr"]):
             outcome = self.succeed(*verb, "--json", "j.json", "--no-clobber")
-            self.assertIn("j.json: already there, left alone", outcome.err)
+            self.assertIn("j.json: exists and is kept", outcome.err)
             self.assertTrue(os.path.exists(self.path(verb[verb.index("-o") + 1])))
             self.assertEqual(self.content("j.json"), b"mine")
         self.succeed("defocus", "s.0001.exr", "-o", "new.exr", "--json", "j.json")
@@ -83,7 +83,7 @@ class Guard(CommandLineTest):
             with open(self.path(there), "w") as file:
                 file.write("mine")
             outcome = self.succeed("scene", "make", "slant", *words, *size, "--no-clobber")
-            self.assertIn(there + ": already there, left alone", outcome.err)
+            self.assertIn(there + ": exists and is kept", outcome.err)
             for name in outputs.values():
                 self.assertEqual(self.content(name)[:4], b"mine" if name == there else b"v/1\x01", name)
                 os.remove(self.path(name))

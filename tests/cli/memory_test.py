@@ -115,7 +115,7 @@ class ShortMemory(CommandLineTest):
         defocus = ["defocus", "in.exr", "-o", "out.exr", "--engine", "realtime", "--device", "gpu", "-q", "--max-memory"]
         outcome = self.run_program(*defocus, "60M")
         if outcome.code == 2:
-            self.skipTest("no driver of Vulkan")
+            self.skipTest("no Vulkan driver")
         self.assertEqual(outcome.code, 1, outcome)
         named = int(re.search(r"takes about (\d+)M", outcome.err).group(1))
         code, peak = self.peak(*defocus, "%dM" % named)

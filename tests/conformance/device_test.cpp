@@ -279,8 +279,7 @@ TEST(Device, PutsPointsWhereTheCpuPutsThem) {
 TEST(TwoDevices, DrawSideBySideByTheirNumbers) {
     const std::vector<std::string> names = gpus();
     if (names.size() < 2)
-        GTEST_SKIP()
-            << "one device of Vulkan or none; docs/reference/devices.md says how to list two drivers";
+        GTEST_SKIP() << "one Vulkan device or none; docs/reference/devices.md says how to list two drivers";
     const Shot shot = small_shot();
     for (const char* engine : {"scatter", "realtime"}) {
         DefocusJob job = shot.job(engine);

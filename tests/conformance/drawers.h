@@ -85,7 +85,7 @@ inline std::vector<std::string> device_names() {
 inline bool is_drawn_by_gpus(const std::string& engine) { return engine != "reference"; }
 
 // Keeps devices open from law to law, as drivers take long to start, and lets go of them before the process
-// ends: by then a layer of Vulkan may have taken itself down.
+// ends: by then a Vulkan layer may have taken itself down.
 class KeptOpen : public testing::Environment {
 public:
     void keep(const std::string& device) {

@@ -1,4 +1,4 @@
-// A layer of Vulkan for tests: it loses the device as soon as the file that $PETZVAL_LOSE_DEVICE names is
+// A Vulkan layer for tests: it loses the device as soon as the file that $PETZVAL_LOSE_DEVICE names is
 // there, lets it have no more memory at once than $PETZVAL_DEVICE_BYTES, and where $PETZVAL_MEMORY_APART is
 // set hides the device's own memory from the host, as cards do: software drivers have one memory for both.
 // (How a layer is asked and finds the next one: LoaderLayerInterface.md of the Vulkan loader.)

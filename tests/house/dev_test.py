@@ -75,12 +75,12 @@ class Door(unittest.TestCase):
             self.assertIn(verb, words)
 
     def test_skipped_tests_are_found_in_the_log_of_every_runner(self):
-        log = ("1/2 Testing: device.vulkan.Heap.Lends\n----\n[ RUN      ] Heap.Lends\nheap_test.cpp:16: Skipped\nno device of Vulkan\n\n"
+        log = ("1/2 Testing: device.vulkan.Heap.Lends\n----\n[ RUN      ] Heap.Lends\nheap_test.cpp:16: Skipped\nno Vulkan device\n\n"
                "[  SKIPPED ] Heap.Lends (0 ms)\n"
                "2/2 Testing: cli.frames_test\n----\ntest_video (frames_test.Frames) ... skipped 'ffmpeg is not installed'\n"
                "test_frames (frames_test.Frames) ... ok\n")
         self.assertEqual(list(dev_tool().skipped_tests(log)),
-                         [("device.vulkan.Heap.Lends", "no device of Vulkan"), ("test_video", "ffmpeg is not installed")])
+                         [("device.vulkan.Heap.Lends", "no Vulkan device"), ("test_video", "ffmpeg is not installed")])
 
 
 def dev_tool():

@@ -1,4 +1,4 @@
-// Draws one frame by the real-time pass on the first device of Vulkan and writes what a host of the shader
+// Draws one frame by the real-time pass on the first Vulkan device and writes what a host of the shader
 // kit needs to draw it as well: FOLDER/lens.bin, colour.bin, radii.bin, and expected.bin, floats row by row;
 // prints width, height and largest radius. Ends with 77 where no device is found.
 #include "device/vulkan/driver/test_context.h"

@@ -1,7 +1,7 @@
 """The kit's WGSL in headless Chromium's WebGPU, on SwiftShader: its frame is the Vulkan pass's.
 
 Usage: kit_test.py PROGRAM, which draws the frame to compare with (kit_frame.cpp). Ends with 77, after the reason, where
-naga, the kit's compilers, Chromium, selenium, WebGPU or a device of Vulkan is missing. /usr/bin/python3 runs this, because
+naga, the kit's compilers, Chromium, selenium, WebGPU or a Vulkan device is missing. /usr/bin/python3 runs this, because
 selenium is Debian's.
 """
 import array
@@ -39,7 +39,7 @@ def frame_of(program, folder):
     """Width, height and largest radius of the frame that the program left in the folder."""
     done = subprocess.run([program, folder], stdout=subprocess.PIPE, text=True)
     if done.returncode == 77:
-        skip("no device of Vulkan")
+        skip("no Vulkan device")
     if done.returncode:
         sys.exit(f"kit_test: {program} ended with {done.returncode}")
     width, height, most_px = done.stdout.split()

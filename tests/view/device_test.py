@@ -1,4 +1,4 @@
-"""A device that vanishes while the window is open, by a layer of Vulkan that loses it."""
+"""A device that vanishes while the window is open, by a Vulkan layer that loses it."""
 import os
 import subprocess
 import sys

@@ -27,7 +27,7 @@ void say(std::string_view line) noexcept {
     if (is_memory)
         say_out_of_memory();
     else
-        say("petzval: a library stopped the program, as happens when memory or threads run out\n");
+        say("petzval: a library ended the program; memory or threads may have run out\n");
     ::_exit(1);
 }
 

@@ -51,7 +51,8 @@ void check(WriteFlags& flags, const Verb& verb) {
     if (!shot.is_shot)
         throw UsageError("a farm renders frames: neither the input nor -o contains #### or %04d");
     if (!shot.frames.report.empty())
-        throw UsageError("--report: the job keeps its records itself, in the folder records");
+        throw UsageError(
+            "--report: the job writes a record of every frame to its folder records; leave out --report");
     if (shot.overwrite.overwrite)
         throw UsageError(
             "--overwrite: a chunk that runs again keeps complete frames; remove old frames first");

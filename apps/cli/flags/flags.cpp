@@ -62,7 +62,7 @@ std::string unknown_argument(const Verb& verb) {
         const CLI::Option* const output = verb.get_option_no_throw("-o");
         const bool may_be_output = output && output->empty() && verb.count_all() > 0;
         return "unexpected argument " + word + "; " +
-               (may_be_output ? "an output is given as -o " + word + "; " : "") + full_name(verb) +
+               (may_be_output ? "write an output as -o " + word + "; " : "") + full_name(verb) +
                " --help shows how it is used";
     }
     return "unknown verb " + word + did_you_mean(word, known) + "; there are " + listed(known);
@@ -190,8 +190,7 @@ void FlagGroup::add_switch(const std::string& name, const std::string& help, std
                                 name.substr(name.rfind(',') + 1)](const std::string& text) -> std::string {
         static const std::set<std::string> known{"true", "false", "on", "off", "1", "0"};
         if (!known.contains(text))
-            throw UsageError(spoken + "=" + text + ": takes no value but on and off, such as " + spoken +
-                             "=off");
+            throw UsageError(spoken + "=" + text + ": takes only on or off, such as " + spoken + "=off");
         return "";
     };
     verb_.add_flag_function(name, count, help)->check(on_or_off)->group(heading_);

@@ -61,7 +61,7 @@ void add_help(Verb& program, Action& chosen) {
         .writes("--save", "FILE", "output file; - is standard output (default)", flags->save_to);
     when_typed(verb, [flags, &program, &chosen] {
         if (!flags->verb.empty() && (flags->form || flags->save_to != "-"))
-            throw UsageError("--format and --save are for all verbs: give no verb");
+            throw UsageError("--format and --save write the help of all verbs; leave out the verb");
         chosen = [flags, &program]() -> Status {
             if (!flags->verb.empty()) return print_verb(help_of(program), flags->verb);
             return write_text(flags->save_to,

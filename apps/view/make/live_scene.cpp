@@ -139,7 +139,8 @@ Result<CameraPath> CameraPath::read(const std::string& path) {
     for (std::string text; std::getline(file, text);) {
         if (++line == 1) {
             if (text.starts_with("frame,yaw_deg,pitch_deg,distance")) continue;
-            return Error{ErrorCode::InvalidFile, path + ":1: not frame,yaw_deg,pitch_deg,distance"};
+            return Error{ErrorCode::InvalidFile,
+                         path + ":1: the first line must be frame,yaw_deg,pitch_deg,distance"};
         }
         std::vector<double> numbers;
         std::istringstream cells(text);
@@ -149,10 +150,10 @@ Result<CameraPath> CameraPath::read(const std::string& path) {
                           std::abs(numbers[2]) < 1e6 && numbers[3] > 1e-3 && numbers[3] < 1e3;
         if (!fine)
             return Error{ErrorCode::InvalidFile, path + ":" + std::to_string(line) +
-                                                     ": not a frame, two angles and a factor above 0"};
+                                                     ": must be a frame, two angles and a factor above 0"};
         read.keys[int(numbers[0])] = {numbers[1], numbers[2], numbers[3]};
     }
-    if (read.keys.empty()) return Error{ErrorCode::InvalidFile, path + ": no frame"};
+    if (read.keys.empty()) return Error{ErrorCode::InvalidFile, path + ": has no frame"};
     return read;
 }
 

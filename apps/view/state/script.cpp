@@ -251,7 +251,7 @@ bool Script::has_come(App& app) {
         return true;
     }
     if (std::chrono::duration<double>(Clock::now() - *waiting_since_).count() > 60)
-        fail(words[1] + " has not become " + words[2] + " in 60 s");
+        fail(words[1] + " did not become " + words[2] + " in 60 s");
     return false;
 }
 
@@ -273,7 +273,7 @@ void Script::expect(App& app, const Words& words) {
     }
     const auto text = field_text(app, words[1]);
     if (!text) return fail(text.error().message);
-    if (words.size() < 3) return fail("expect " + words[1] + ": which value?");
+    if (words.size() < 3) return fail("expect " + words[1] + " needs a value");
     const auto is = number_of(*text), wanted = number_of(words[2]);
     if (is && wanted) {
         const auto share = words.size() > 3 ? number_of(words[3]) : Result<double>(1e-5);

@@ -44,7 +44,7 @@ void draw(Context& context, Target out) {
 
 TEST(DeviceCanvas, HoldsWhatTheHostsMemoryWould) {
     const auto context = any_context();
-    if (!context) GTEST_SKIP() << "no device of Vulkan";
+    if (!context) GTEST_SKIP() << "no Vulkan device";
     Picture home(kWidth, kHeight);
     draw(*context, home);
     EXPECT_EQ(home(6, 3), numbered(30));
@@ -58,7 +58,7 @@ TEST(DeviceCanvas, HoldsWhatTheHostsMemoryWould) {
 
 TEST(DeviceCanvas, StaysAtHomeOnceAskedForUntilItIsSent) {
     const auto context = any_context();
-    if (!context) GTEST_SKIP() << "no device of Vulkan";
+    if (!context) GTEST_SKIP() << "no Vulkan device";
     DeviceCanvas canvas(*context, Picture(kWidth, kHeight));
     canvas.view()(2, 1) = numbered(9);
     EXPECT_EQ(canvas.drawn_on(), nullptr);

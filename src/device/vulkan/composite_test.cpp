@@ -60,7 +60,7 @@ struct Planned {
 // A watchdog, a small memory, a slow device: what is drawn depends on none of them.
 TEST(Composite, IsTheSameBitsHoweverItIsCut) {
     const auto context = any_context();
-    if (!context) GTEST_SKIP() << "no device of Vulkan";
+    if (!context) GTEST_SKIP() << "no Vulkan device";
     Planned planned;
     ASSERT_EQ(planned.plan.tiles.size(), 7u) << "six tiles and the end";
     Picture whole(kWidth, kHeight), cut(kWidth, kHeight);
@@ -79,7 +79,7 @@ TEST(Composite, IsTheSameBitsHoweverItIsCut) {
 
 // A device with hardly any memory: by smaller and smaller pieces, the same bits, and it says so.
 TEST(Composite, IsDrawnInPiecesWhereMemoryRunsOut) {
-    if (!any_context()) GTEST_SKIP() << "no device of Vulkan";
+    if (!any_context()) GTEST_SKIP() << "no Vulkan device";
     Planned planned;
     Picture whole(kWidth, kHeight);
     const auto roomy = any_context();

@@ -66,7 +66,7 @@ struct OnDevice {
 // float rounds otherwise.
 TEST(DevelopOnDevice, CodesAreTheCpusAndTwiceTheSame) {
     OnDevice device;
-    if (!device.context) GTEST_SKIP() << "no device of Vulkan";
+    if (!device.context) GTEST_SKIP() << "no Vulkan device";
     for (const ToneCurve tone : {ToneCurve::None, ToneCurve::Reinhard, ToneCurve::Filmic})
         for (const Transfer transfer :
              {Transfer::Srgb, Transfer::Gamma22, Transfer::Gamma20, Transfer::Linear})
@@ -91,7 +91,7 @@ TEST(DevelopOnDevice, CodesAreTheCpusAndTwiceTheSame) {
 // Black, white and invalid light have codes that no rounding may change.
 TEST(DevelopOnDevice, BlackStaysBlackAndWhiteWhite) {
     OnDevice device;
-    if (!device.context) GTEST_SKIP() << "no device of Vulkan";
+    if (!device.context) GTEST_SKIP() << "no Vulkan device";
     for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x)
             device.light(x, y) = y < kHeight / 2 ? Rgba{0, -1, std::nanf(""), 0}
@@ -109,7 +109,7 @@ TEST(DevelopOnDevice, BlackStaysBlackAndWhiteWhite) {
 // A part is the crop of the whole where its pattern begins there; with and without coverage.
 TEST(DevelopOnDevice, APartIsTheCropOfTheWhole) {
     OnDevice device;
-    if (!device.context) GTEST_SKIP() << "no device of Vulkan";
+    if (!device.context) GTEST_SKIP() << "no Vulkan device";
     const Rect part{13, 5, 60, 41};
     for (const bool alpha : {false, true}) {
         const DevelopSettings settings{.alpha = alpha};
@@ -131,7 +131,7 @@ TEST(DevelopOnDevice, APartIsTheCropOfTheWhole) {
 // A picture in host memory is not uploaded for its codes.
 TEST(DevelopOnDevice, WhatIsAtHomeStaysThere) {
     OnDevice device;
-    if (!device.context) GTEST_SKIP() << "no device of Vulkan";
+    if (!device.context) GTEST_SKIP() << "no Vulkan device";
     DeviceCanvas canvas(*device.context, device.light.clone());
     const colour::DevelopPlan plan{{}, device.light.rect()};
     EXPECT_TRUE(developed(*device.context, plan, canvas, *device.workers).empty()) << "nothing is drawn yet";

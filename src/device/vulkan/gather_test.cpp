@@ -67,7 +67,7 @@ std::uint64_t bytes_of(const Context& context) {
 // however wide that is.
 TEST(Gather, IsTheSameBitsTileByTileAtTheSameCostAPixel) {
     const auto context = any_context(), slow = any_context();
-    if (!context) GTEST_SKIP() << "no device of Vulkan";
+    if (!context) GTEST_SKIP() << "no Vulkan device";
     while (slow->at_once(16) > 1) slow->halves(Failed{{ErrorCode::OutOfMemory, ""}});
     Drawn narrow(256), wide(900);
     slow->time_passes();

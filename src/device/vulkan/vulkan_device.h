@@ -1,4 +1,4 @@
-// A device of Vulkan among the devices that draw plans.
+// A Vulkan device among the devices that draw plans.
 #pragma once
 
 #include "petzval/result.h"

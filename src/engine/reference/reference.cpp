@@ -306,7 +306,7 @@ void say_what_is_not_known(const EngineView& input, Output& output) {
     if (empty == 0) return;
     const double percent = 100.0 * double(empty) / double(output.image.size());
     output.warnings.push_back(std::to_string(std::max(1, int(percent))) +
-                              " % of the picture see hidden background, which is unknown and left empty; "
+                              " % of the picture show hidden background, which is unknown and stays empty; "
                               "supply it as shot.behind");
 }
 

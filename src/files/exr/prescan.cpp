@@ -77,7 +77,7 @@ double pixels_of_window(Cursor& in, const char* what, std::size_t max_pixels) {
                       " pixels, more than the " + std::to_string(max_pixels) + " allowed"};
     constexpr std::int64_t kFar = 1 << 29;
     if (std::max({x0, y0, x1, y1}) > kFar || std::min({x0, y0, x1, y1}) < -kFar)
-        throw Damaged{std::string("its ") + what + " window lies absurdly far out"};
+        throw Damaged{std::string("its ") + what + " window is too far from pixel 0,0"};
     return width * height;
 }
 

@@ -232,7 +232,7 @@ void warn_of_what_is_not_said(const Imf::Header& header, Frame& frame) {
     if (header.hasTileDescription() && header.tileDescription().mode != Imf::ONE_LEVEL)
         frame.warnings.emplace_back("it has mip levels: the first is read, the others are not kept");
     if (Imf::hasEnvmap(header))
-        frame.warnings.emplace_back("it is an environment map, and is read as if a camera had taken it");
+        frame.warnings.emplace_back("it is an environment map, but is read as the picture of a camera");
 }
 
 std::size_t replace_non_finite(Picture& colour, Workers& workers) {

@@ -108,9 +108,11 @@ Status write_exr_views(const std::string& path, const std::vector<const Frame*>&
                        const WriteOptions& options) {
     for (const Frame* frame : frames) {
         if (Status s = check_size(*frame); !s) return s;
-        if (!frame->carried) return Error{ErrorCode::InvalidArgument, "views are of a file that was read"};
+        if (!frame->carried)
+            return Error{ErrorCode::InvalidArgument,
+                         "only a file that was read can be written with several views"};
     }
-    if (frames.empty()) return Error{ErrorCode::InvalidArgument, "no view is given"};
+    if (frames.empty()) return Error{ErrorCode::InvalidArgument, "views must not be empty"};
     const std::shared_ptr<Workers> workers = workers_of(options.threads, options.workers);
     return write_exr_file(path, options.overwrite, [&](Imf::OStream& stream) {
         return write_carried(stream, frames, options, *workers);

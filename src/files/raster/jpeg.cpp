@@ -112,7 +112,7 @@ bool read_header(Reading& r) {
     if (pixels > kMostPixelsPerByte * r.file->bytes())
         leave(r, "its header promises more pixels than the file can hold; it is cut off");
     if (r.jpeg.num_components != 1 && r.jpeg.num_components != 3)
-        leave(r, "it has inks (CMYK); RGB or grey is needed");
+        leave(r, "it is CMYK; RGB or grey is needed");
     r.jpeg.out_color_space = r.jpeg.num_components == 1 ? JCS_GRAYSCALE : JCS_RGB;
     return true;
 }

@@ -169,7 +169,7 @@ std::string refusal_of_size(TIFF* tiff, Layout& layout, const InputFile& file, s
     const std::uint64_t of_library = layout.tiled ? TIFFTileSize64(tiff) : TIFFStripSize64(tiff);
     if (layout.block_bytes == 0 || layout.block_bytes != of_library || layout.block_width > kLongestSide ||
         layout.block_height > kLongestSide || layout.block_bytes > 4 * bytes + (1 << 24))
-        return "has strips or tiles of an absurd size";
+        return "has strips or tiles of an impossible size";
     return "";
 }
 
@@ -284,7 +284,7 @@ Result<Raster> read_tiff(const InputFile& file, const ReadOptions& options, bool
     if (!refused.empty()) return invalid_file(file.path(), refused);
     if (!TIFFIsCODECConfigured(tag(tiff.get(), TIFFTAG_COMPRESSION)))
         return invalid_file(file.path(),
-                            "is packed in a way that cannot be read: " + compression_of(tiff.get()));
+                            "has a compression that cannot be read: " + compression_of(tiff.get()));
     Raster out = raster_of(tiff.get(), layout);
     if (!pixels) return out;
     if (layout.floats)

@@ -22,7 +22,7 @@ Status check(const PointSettings& s) {
     if (!is_length(s.focal_length_mm)) return invalid("the focal length must be 1 to 10000 mm");
     if (!is_length(s.sensor_width_mm)) return invalid("the sensor width must be 1 to 10000 mm");
     if (s.horizon && !(*s.horizon >= -1 && *s.horizon <= 2))
-        return invalid("the horizon must lie -1 to 2 heights below the top");
+        return invalid("the horizon must be -1 to 2 picture heights below the top");
     if (s.count < 0 || s.count > 20'000'000) return invalid("the count of points must be 1 to 20000000");
     return Done{};
 }

@@ -30,7 +30,7 @@ Result<std::shared_ptr<Context>> Context::open(std::shared_ptr<Instance> instanc
         return Error{ErrorCode::Unsupported, candidate.name + " does not have " + candidate.lacks};
     if (candidate.is_software && !has_room_for_a_compiler())
         return Error{ErrorCode::OutOfMemory,
-                     candidate.name + " needs 512M of addresses, and ulimit -v leaves less"};
+                     candidate.name + " needs 512M of address space, and ulimit -v leaves less"};
     std::shared_ptr<Context> context(new Context(std::move(instance), candidate));
     if (const Status created = context->create(number); !created) return created.error();
     return context;
@@ -89,8 +89,7 @@ bool Context::halves(const Failed& failed) {
     if (let_go_) let_go_();
     heap_->trim();
     say(name() +
-        " has no memory left for as much of a frame as it draws at once; it draws smaller pieces from now "
-        "on");
+        " has too little memory left for pieces of a frame this large; it draws smaller pieces from now on");
     return true;
 }
 

@@ -125,7 +125,7 @@ std::uint32_t Heap::type_for(Kind kind, std::uint32_t allowed) const {
             if (flags == (kLocal | kSeen) && memory_.memoryHeaps[type.heapIndex].size < largest) continue;
             return i;
         }
-    throw Failed{{ErrorCode::Unsupported, opened_.name + " has no memory that buffers can lie in"}};
+    throw Failed{{ErrorCode::Unsupported, opened_.name + " has no memory type for buffers"}};
 }
 
 void Heap::destroy(Block& block) const {

@@ -13,7 +13,7 @@ namespace {
 
 TEST(Heap, PiecesNeverOverlapAndLeaveNothingBehind) {
     const auto context = any_context();
-    if (!context) GTEST_SKIP() << "no device of Vulkan";
+    if (!context) GTEST_SKIP() << "no Vulkan device";
     Heap& heap = context->heap();
     unsigned state = 1;
     const auto random = [&](unsigned n) { return (state = state * 1664525u + 1013904223u) / 65536u % n; };
@@ -43,7 +43,7 @@ TEST(Heap, PiecesNeverOverlapAndLeaveNothingBehind) {
 
 TEST(Heap, RefusesWhatNoDeviceHas) {
     const auto context = any_context();
-    if (!context) GTEST_SKIP() << "no device of Vulkan";
+    if (!context) GTEST_SKIP() << "no Vulkan device";
     try {
         static_cast<void>(context->heap().allocate(Kind::OnDevice, std::size_t(1) << 60));
         FAIL() << "a device with an exbibyte";

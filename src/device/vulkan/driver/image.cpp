@@ -15,7 +15,7 @@ std::uint32_t type_for(const VkPhysicalDeviceMemoryProperties& memory, std::uint
          {VkMemoryPropertyFlags(VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT), VkMemoryPropertyFlags(0)})
         for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i)
             if ((allowed & (1u << i)) && (memory.memoryTypes[i].propertyFlags & flags) == flags) return i;
-    throw Failed{{ErrorCode::Unsupported, device + " has no memory that images can lie in"}};
+    throw Failed{{ErrorCode::Unsupported, device + " has no memory type for images"}};
 }
 
 VkImageCreateInfo info_of(const ImageKind& kind) {

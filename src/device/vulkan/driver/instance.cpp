@@ -71,13 +71,13 @@ Instance::~Instance() {
 
 Status Instance::create() {
     library_ = dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
-    if (!library_) return unsupported("the loader of Vulkan is not installed (libvulkan.so.1)");
+    if (!library_) return unsupported("the Vulkan loader is not installed (libvulkan.so.1)");
     vk_.vkGetInstanceProcAddr =
         reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(library_, "vkGetInstanceProcAddr"));
-    if (!vk_.vkGetInstanceProcAddr) return unsupported("libvulkan.so.1 is not a loader of Vulkan");
+    if (!vk_.vkGetInstanceProcAddr) return unsupported("libvulkan.so.1 is not a Vulkan loader");
     PETZVAL_VK_LOADER(PETZVAL_VK_FIND)
     if (!vk_.vkCreateInstance || !vk_.vkEnumerateInstanceVersion)
-        return unsupported("the loader of Vulkan is older than Vulkan 1.1");
+        return unsupported("the Vulkan loader is older than Vulkan 1.1");
     return create_instance();
 }
 
@@ -115,7 +115,7 @@ Status Instance::create_instance() {
         if (made == VK_ERROR_LAYER_NOT_PRESENT)
             return unsupported(
                 "$PETZVAL_VULKAN_VALIDATION is set, but the validation layer is not installed");
-        return unsupported("no driver of Vulkan is installed");
+        return unsupported("no Vulkan driver is installed");
     }
     find_functions(vk_, instance_);
     if (is_watched) vk_.vkCreateDebugUtilsMessengerEXT(instance_, &watching, nullptr, &messenger_);

@@ -76,8 +76,8 @@ void Recording::order(VkPipelineStageFlags to, VkAccessFlags access) {
 void Recording::check_range(const Piece& piece) const {
     const std::size_t most = context_.most_range_bytes();
     if (piece.size() <= most) return;
-    throw Failed{{ErrorCode::OutOfMemory, context_.name() + " reads at most " + std::to_string(most >> 20) +
-                                              " MiB in one piece, and this frame has one of " +
+    throw Failed{{ErrorCode::OutOfMemory, context_.name() + " binds at most " + std::to_string(most >> 20) +
+                                              " MiB as one buffer, and this frame needs " +
                                               std::to_string(piece.size() >> 20) +
                                               " MiB; session.device cpu has no such limit"}};
 }

@@ -17,7 +17,7 @@ namespace {
 
 TEST(Recording, BringsBackWhatItTook) {
     const auto context = any_context();
-    if (!context) GTEST_SKIP() << "no device of Vulkan";
+    if (!context) GTEST_SKIP() << "no Vulkan device";
     std::vector<std::uint32_t> words(100000);
     std::iota(words.begin(), words.end(), 7u);
     Recording recording(*context);
@@ -47,7 +47,7 @@ struct Sums {
 TEST(Recording, HoldsAnyNumberOfPasses) {
     auto context = watched_context();
     if (!context) context = any_context();
-    if (!context) GTEST_SKIP() << "no device of Vulkan";
+    if (!context) GTEST_SKIP() << "no Vulkan device";
     context->time_passes();
     constexpr int kPasses = 150;
     Sums sums(*context);
@@ -62,7 +62,7 @@ TEST(Recording, HoldsAnyNumberOfPasses) {
 TEST(Recording, NoPassOverwritesWhatAnotherIsWriting) {
     for (const bool plants : {false, true}) {
         const auto context = closely_watched_context();
-        if (!context) GTEST_SKIP() << "no device of Vulkan, or no validation layer that sees it";
+        if (!context) GTEST_SKIP() << "no Vulkan device, or no validation layer that sees it";
         Sums sums(*context);
         sums.add(), sums.add();
         if (plants) context->vk().vkCmdDispatch(sums.recording.commands(), 4, 1, 1);

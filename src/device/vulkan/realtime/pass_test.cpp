@@ -59,14 +59,14 @@ std::string said_of(bool plant) {
 
 TEST(Watched, AMissingBarrierIsCaughtAndNoneIsMissing) {
     const std::string silent = said_of(false);
-    if (silent == "skipped") GTEST_SKIP() << "no device of Vulkan, or no validation layer";
+    if (silent == "skipped") GTEST_SKIP() << "no Vulkan device, or no validation layer";
     EXPECT_EQ(silent, "");
     EXPECT_NE(said_of(true).find("SYNC-HAZARD"), std::string::npos);
 }
 
 // Messages after the last frame: here a device closes before its objects.
 TEST(Watched, WhatIsSaidAfterTheLastFrameEndsTheProcess) {
-    if (said_of(false) == "skipped") GTEST_SKIP() << "no device of Vulkan, or no validation layer";
+    if (said_of(false) == "skipped") GTEST_SKIP() << "no Vulkan device, or no validation layer";
     testing::FLAGS_gtest_death_test_style = "threadsafe";
     const auto leave_a_fence_behind = [] {
         const auto context = watched_context();
@@ -95,7 +95,7 @@ struct Given {
 
 TEST(RealtimeDrawer, KeepsItsPassForFramesOfOneSize) {
     const auto context = any_context();
-    if (!context) GTEST_SKIP() << "no device of Vulkan";
+    if (!context) GTEST_SKIP() << "no Vulkan device";
     RealtimeDrawer drawer(*context);
     const Given given;
     Picture first(100, 150), again(100, 150), other(64, 48);
@@ -115,7 +115,7 @@ TEST(RealtimeDrawer, KeepsItsPassForFramesOfOneSize) {
 // are.
 TEST(RealtimeDrawer, ManyLampsAreNotDrawnOneByOne) {
     const auto context = any_context();
-    if (!context) GTEST_SKIP() << "no device of Vulkan";
+    if (!context) GTEST_SKIP() << "no Vulkan device";
     RealtimeDrawer drawer(*context);
     const auto lens = ideal_lens();
     constexpr int kWidth = 320, kHeight = 192;
@@ -140,7 +140,7 @@ TEST(RealtimeDrawer, ManyLampsAreNotDrawnOneByOne) {
 
 TEST(RealtimeDrawer, DrawsFramesSideBySide) {
     const auto context = any_context();
-    if (!context) GTEST_SKIP() << "no device of Vulkan";
+    if (!context) GTEST_SKIP() << "no Vulkan device";
     RealtimeDrawer drawer(*context);
     const Given given;
     const engine::RealtimePlan plan = given.plan();
@@ -159,7 +159,7 @@ TEST(RealtimeDrawer, DrawsFramesSideBySide) {
 // allows.
 TEST(Watched, AFrameIsTheSameBitsHoweverItIsCut) {
     const auto context = watched_context();
-    if (!context) GTEST_SKIP() << "no device of Vulkan";
+    if (!context) GTEST_SKIP() << "no Vulkan device";
     const Given given;
     Picture whole(100, 150);
     RealtimeDrawer(*context).draw(given.plan(), whole);
@@ -180,7 +180,7 @@ TEST(Watched, AFrameIsTheSameBitsHoweverItIsCut) {
 
 TEST(RealtimeDrawer, LeavesOffBetweenSubmissionsWhereAsked) {
     const auto context = any_context();
-    if (!context) GTEST_SKIP() << "no device of Vulkan";
+    if (!context) GTEST_SKIP() << "no Vulkan device";
     const Given given;
     int asked = 0;
     const Progress progress({}, [&] { return ++asked > 20; });
@@ -198,7 +198,7 @@ TEST(RealtimeDrawer, LeavesOffBetweenSubmissionsWhereAsked) {
 // A large picture is drawn in strips that nobody sees: here of 48 rows, with 48 around them.
 TEST(RealtimeDrawer, DrawsStripsAsIfTheyWereOne) {
     const auto context = any_context();
-    if (!context) GTEST_SKIP() << "no device of Vulkan";
+    if (!context) GTEST_SKIP() << "no Vulkan device";
     const Given given(320);
     Picture whole(100, 320), strips(100, 320);
     RealtimeDrawer(*context).draw(given.plan(), whole);
@@ -213,7 +213,7 @@ TEST(RealtimeDrawer, DrawsStripsAsIfTheyWereOne) {
 
 TEST(RealtimeDrawer, RefusesRowsThatNoImageHolds) {
     const auto context = any_context();
-    if (!context) GTEST_SKIP() << "no device of Vulkan";
+    if (!context) GTEST_SKIP() << "no Vulkan device";
     const int width = int(context->candidate().limits.maxImageDimension2D) + 1;
     const Picture colour(width, 1);
     Picture out(width, 1);
@@ -227,7 +227,7 @@ TEST(RealtimeDrawer, RefusesRowsThatNoImageHolds) {
 
 TEST(Recording, RefusesAPieceThatNoProgramCanRead) {
     const auto context = any_context();
-    if (!context) GTEST_SKIP() << "no device of Vulkan";
+    if (!context) GTEST_SKIP() << "no Vulkan device";
     if (context->most_range_bytes() > std::size_t(256) << 20) GTEST_SKIP() << "a device that reads it";
     const Piece large = context->heap().allocate(Kind::OnDevice, context->most_range_bytes() + 1024);
     Recording recording(*context);
