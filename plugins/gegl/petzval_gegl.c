@@ -183,6 +183,12 @@ static gboolean process(GeglOperation* operation, GeglBuffer* input, GeglBuffer*
     char* const fault = fault_of_look(self_of(operation)->look);
     if (!aux) {
         g_warning("petzval:defocus: connect depth to the pad aux");
+    } else if (!gegl_rectangle_contains(gegl_buffer_get_extent(aux), &all)) {
+        /* For a missing file, gegl:load draws a small picture of its error message. */
+        const GeglRectangle* given = gegl_buffer_get_extent(aux);
+        g_warning("petzval:defocus: aux has %d x %d pixels and does not cover the picture, %d x %d; check the file "
+                  "of the depth, or scale the depth",
+                  given->width, given->height, all.width, all.height);
     } else if (text_given(self_of(operation)->preset) && text_given(self_of(operation)->look)) {
         g_warning("petzval:defocus: preset and look are both given; empty one of them");
     } else if (fault) {

@@ -116,7 +116,7 @@ class Doors(unittest.TestCase):
     def test_openfx_with_a_file_of_depth(self):
         self.ofx("openfx-file", "--context", "filter", "--param", f"depthFile={self.sharp}")
 
-    def gegl(self, door, *properties, aux=True, stored=lambda metres: metres):
+    def gegl(self, door, *properties, aux=True, depth=None, stored=lambda metres: metres):
         """A frame of the GEGL operation, of depth as it is stored; what GLib warned of."""
         self.needs("PETZVAL_GEGL")
         shot = petzval.read_shot(self.sharp)
@@ -125,7 +125,7 @@ class Doors(unittest.TestCase):
         theirs = subprocess.run(["pkg-config", "--variable=pluginsdir", "gegl-0.4"], capture_output=True, text=True).stdout.strip()
         mine = pathlib.Path(os.environ["PETZVAL_GEGL"]).parent
         words = ["gegl", self.path("gegl-colour"), "-o", self.path(door), "--", "petzval:defocus", *properties]
-        words += ["aux=[", "gegl:load", f"path={self.path('gegl-depth')}", "]"] if aux else []
+        words += ["aux=[", "gegl:load", f"path={depth or self.path('gegl-depth')}", "]"] if aux else []
         done = subprocess.run(list(map(str, words)), capture_output=True, text=True, timeout=250,
                               env={**os.environ, "GEGL_PATH": f"{theirs}:{mine}"})
         self.assertEqual(done.returncode, 0, done.stderr)  # GEGL's own operations print of leaked buffers as well
@@ -157,11 +157,14 @@ class Doors(unittest.TestCase):
 
     def test_gegl_warns_and_passes_the_picture_on(self):
         for properties, aux, says in ((self.CAMERA, False, "connect depth"), (("lens=no-such-lens",), True, "no-such-lens"),
-                                      (("look=missing.look",), True, "look: Failed to open file"), (("look={",), True, "look: is not JSON"),
+                                      (("look=missing.look",), True, "look: Failed to open file"),
+                                      ((f"look={self.path('gegl-depth')}",), True, "look: is not JSON"),
                                       (("preset=acromat",), True, "did you mean achromat"),
                                       (("preset=night", "look=own.look"), True, "both given")):
             self.assertIn(says, self.gegl("gegl-refused", *properties, aux=aux))
             self.assertEqual(planes(self.path("gegl-refused")), planes(self.path("gegl-colour")))
+        self.assertIn("does not cover the picture", self.gegl("gegl-refused", depth=self.path("missing")))
+        self.assertEqual(planes(self.path("gegl-refused")), planes(self.path("gegl-colour")))
 
 
 if __name__ == "__main__":
