@@ -16,6 +16,11 @@ RunFiles& run_files() {
     return files;
 }
 
+Status may_write(const std::vector<std::string>& outputs) {
+    for (const std::string& path : outputs) run_files().writes(path);
+    return run_files().check();
+}
+
 void never_replace() { g_never_replaces = true; }
 bool never_replaces() { return g_never_replaces; }
 

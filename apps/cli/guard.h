@@ -5,11 +5,15 @@
 #include "petzval/run_files.h"
 
 #include <string>
+#include <vector>
 
 namespace petzval::cli {
 
 // Those of this process, which runs one verb.
 RunFiles& run_files();
+
+// Adds outputs whose names follow from flags, and checks all files again.
+Status may_write(const std::vector<std::string>& outputs);
 
 // Applies --no-clobber from now on.
 void never_replace();

@@ -75,14 +75,4 @@ void require_folder(const std::string& output) {
         throw UsageError("-o " + output + ": must be a folder, but is a file", ErrorCode::OutputFailed);
 }
 
-Status make_folder(const std::string& folder) {
-    std::error_code problem;
-    std::filesystem::create_directories(folder, problem);
-    if (!std::filesystem::is_directory(folder))
-        return Error{ErrorCode::OutputFailed,
-                     "cannot make the folder " + folder + ": " +
-                         (problem ? problem.message() : std::string("there is a file of that name"))};
-    return Done{};
-}
-
 }  // namespace petzval::cli

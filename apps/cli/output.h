@@ -40,7 +40,5 @@ Status write_text(const std::string& path, const std::string& text);
 
 // Throws UsageError (OutputFailed) if the folder of -o is a file.
 void require_folder(const std::string& output);
-// A folder, made if missing. Errors: OutputFailed.
-Status make_folder(const std::string& folder);
 
 }  // namespace petzval::cli

@@ -14,6 +14,7 @@
 #include "petzval/shot.h"
 #include "petzval/workers.h"
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
@@ -58,6 +59,30 @@ PETZVAL_API Result<std::vector<std::string>> lens_page_names(const std::vector<s
 PETZVAL_API Result<std::vector<std::string>> write_lens_pages(
     const std::vector<std::string>& lenses, const std::string& folder,
     const std::function<bool(double)>& progress = {});
+
+// Reports as files, as petzval lens report writes them.
+struct LensReportFiles {
+    std::vector<std::string> lenses = {};  // names or lens files; empty: every built-in lens
+    // The report of one lens is a page (is_lens_page()), or a page in this folder; empty: in the current
+    // folder. The report of several lenses is a folder; see write_lens_pages(). A missing folder is made.
+    std::string output = {};
+    std::size_t max_memory_bytes = 0;           // 0: no limit
+    std::function<bool(double)> progress = {};  // as of write_lens_pages()
+};
+struct LensReportMade {
+    std::vector<std::string> outputs;  // in the order of writing
+    std::string record;                // that of `petzval lens report --json`
+};
+// True for the extensions .html, .htm and .xhtml.
+PETZVAL_API bool is_lens_page(const std::string& path);
+// Errors: InvalidArgument for several lenses without a folder.
+PETZVAL_API Status check(const LensReportFiles& files);
+// The paths in the order of writing. Errors: those of check() and lens_page_names().
+PETZVAL_API Result<std::vector<std::string>> outputs_of(const LensReportFiles& files);
+// `may_write` is asked when the folder exists, before the files are written; its error stops. Errors: those
+// of outputs_of() and write_lens_pages(); OutOfMemory.
+PETZVAL_API Result<LensReportMade> make_lens_report(const LensReportFiles& files,
+                                                    const std::function<Status()>& may_write = {});
 
 // A picture through one lens.
 struct LensView {

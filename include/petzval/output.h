@@ -24,6 +24,9 @@ PETZVAL_API Status check_outputs(const std::vector<std::string>& outputs,
 // overwrite false: an existing file is an error. Errors: OutputFailed.
 PETZVAL_API Status write_text(const std::string& path, const std::string& text, bool overwrite = true);
 
+// Makes a folder with its parents, if it does not exist. Errors: OutputFailed.
+PETZVAL_API Status make_folder(const std::string& folder);
+
 // Removes all unfinished outputs of this process. Async-signal-safe, so a signal handler may call it at any
 // time. The process must not write afterwards.
 PETZVAL_API void remove_unfinished_outputs();

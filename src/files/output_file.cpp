@@ -277,4 +277,13 @@ Status write_text(const std::string& path, const std::string& text, bool overwri
     return (*file)->commit();
 }
 
+Status make_folder(const std::string& folder) {
+    std::error_code problem, missing;
+    std::filesystem::create_directories(folder, problem);
+    if (std::filesystem::is_directory(folder, missing)) return Done{};
+    return Error{ErrorCode::OutputFailed,
+                 "cannot make the folder " + folder + ": " +
+                     (problem ? problem.message() : std::string("there is a file of that name"))};
+}
+
 }  // namespace petzval

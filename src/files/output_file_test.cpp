@@ -239,6 +239,17 @@ TEST(OutputFile, AFullDiskLeavesTheOldFileAndNothingElse) {
     EXPECT_EQ(folder.files(), 6u);
 }
 
+TEST(OutputFile, AFolderIsMadeWithItsParentsUnlessAFileIsInItsPlace) {
+    const TemporaryFolder folder;
+    const std::string deep = folder / "a/b/c";
+    EXPECT_TRUE(make_folder(deep));
+    EXPECT_TRUE(make_folder(deep));
+    EXPECT_TRUE(std::filesystem::is_directory(deep));
+    ASSERT_TRUE(write_text(folder / "file", "text"));
+    EXPECT_EQ(make_folder(folder / "file").error().code, ErrorCode::OutputFailed);
+    EXPECT_EQ(make_folder(folder / "file/below").error().code, ErrorCode::OutputFailed);
+}
+
 TEST(OutputFile, ASignalHandlerCanRemoveWhatIsNotFinished) {
     const TemporaryFolder folder;
     const pid_t child = ::fork();

@@ -146,15 +146,6 @@ std::string finished(Json record, const Stopwatch& watch) {
     return records::as_text(record);
 }
 
-Status make_folder(const std::string& folder) {
-    std::error_code problem;
-    std::filesystem::create_directories(folder, problem);
-    if (std::filesystem::is_directory(folder)) return Done{};
-    return Error{ErrorCode::OutputFailed,
-                 "cannot make the folder " + folder + ": " +
-                     (problem ? problem.message() : std::string("there is a file of that name"))};
-}
-
 }  // namespace
 
 Status check(const LensPictureFile& file) {

@@ -1,3 +1,4 @@
+#include "petzval/lens_facts.h"
 #include "petzval/lens_report.h"
 
 #include "base/temporary_folder.h"
@@ -178,6 +179,44 @@ TEST(LensAtlasFiles, OfRingsAreOfRoundPupilsAndOneZoneIsTheMiddle) {
     files.atlas.zones = 1, files.max_memory_bytes = 1 << 10;
     EXPECT_EQ(make_lens_atlas(files).error().code, ErrorCode::OutOfMemory);
     EXPECT_FALSE(std::filesystem::exists(files.folder));
+}
+
+TEST(LensReportFiles, OfOneLensIsAPageAndOfSeveralAFolder) {
+    const test::TemporaryFolder folder;
+    LensReportFiles files{.lenses = {"ideal"}};
+    EXPECT_EQ(outputs_of(files).value(), std::vector<std::string>{"ideal.html"}) << "in the current folder";
+    files.output = "sheet.xhtml";
+    EXPECT_EQ(outputs_of(files).value(), std::vector<std::string>{"sheet.xhtml"});
+    files.lenses.emplace_back("doublet");
+    EXPECT_EQ(check(files).error().field, "report.output") << "two pages in one file";
+    files.output = folder / "sheets";
+    const auto outputs = outputs_of(files).value();
+    ASSERT_EQ(outputs.size(), 5u);
+    EXPECT_EQ(outputs[1], folder / "sheets/doublet.html");
+    EXPECT_EQ(outputs[4], folder / "sheets/index.html");
+    files.lenses = {};
+    EXPECT_EQ(outputs_of(files).value().size(), lens_list().size() + 3);
+    files.output = "";
+    EXPECT_EQ(check(files).error().field, "report.output");
+}
+
+TEST(LensReportFiles, AreWrittenWithTheirRecordIfTheyMayBe) {
+    const test::TemporaryFolder folder;
+    LensReportFiles files{.lenses = {"ideal"}, .output = folder / "new/sheets"};
+    const Error no{ErrorCode::OutputFailed, "no"};
+    EXPECT_EQ(make_lens_report(files, [&] { return Status(no); }).error().message, "no");
+    const std::string page = outputs_of(files).value().front();
+    EXPECT_FALSE(std::filesystem::exists(page));
+    const auto made = make_lens_report(files);
+    ASSERT_TRUE(made) << made.error().message;
+    EXPECT_TRUE(std::filesystem::exists(page));
+    EXPECT_NE(made->record.find("\"verb\":\"lens report\",\"input\":\"ideal\""), std::string::npos)
+        << made->record;
+    files.max_memory_bytes = 1 << 10;
+    EXPECT_EQ(make_lens_report(files).error().code, ErrorCode::OutOfMemory);
+    files.max_memory_bytes = 0, files.output = folder / "other", files.lenses = {"no such lens"};
+    EXPECT_FALSE(make_lens_report(files));
+    EXPECT_FALSE(std::filesystem::exists(files.output)) << "a misspelt name makes no folder";
 }
 
 TEST(LensPicture, NothingIsWrittenForALensOrAFormatThatIsNone) {

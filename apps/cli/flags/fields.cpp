@@ -100,6 +100,7 @@ const Rows& other_flags() {
         {"lens.kernel_images", "--kernel-image"},
         {"ocio.view", "--ocio"},
         {"ocio.working_space", "--ocio-space"},
+        {"report.output", "-o"},
         {"session.device", "--device"},
     };
     return rows;

@@ -35,10 +35,7 @@ Status write_atlas(AtlasFlags& flags) {
     if (flags.overwrite.skips(outputs)) return Done{};
     ProgressLine progress(flags.run.progress, flags.run.quiet, "lens atlas");
     files.atlas.progress = [&](double share) { return interrupted_by() == 0 && progress(share); };
-    const auto made = make_lens_atlas(std::move(files), [&] {
-        for (const std::string& path : outputs) run_files().writes(path);
-        return run_files().check();
-    });
+    const auto made = make_lens_atlas(std::move(files), [&] { return may_write(outputs); });
     if (!made) return made.error();
     note("wrote " + listed(outputs) + ": " + made->lens + " (" + camera_text(made->camera) + ")");
     return write_record(made->record, flags.run.json);
