@@ -148,39 +148,13 @@ Status make_scenes(const MakeFlags& flags) {
     return make_frames(flags.frames, run, work_of(files, terminal()));
 }
 
-Status list_scenes(const RunFlags& run) {
-    constexpr std::size_t kNames = 15;  // columns
-    std::string text;
-    Json scenes = Json::array();
-    for (const SceneSummary& scene : scene_list()) {
-        const Camera& c = scene.camera;
-        text += scene.name + std::string(scene.name.size() < kNames ? kNames - scene.name.size() : 1, ' ') +
-                scene.purpose + "\n" + std::string(kNames, ' ') + plain(c.focal_length_mm) + " mm f/" +
-                plain(c.f_number) + ", focus " + plain(c.focus_distance_m) + " m, sensor " +
-                plain(c.sensor_width_mm) + " mm" +
-                (scene.frames > 1 ? ", " + std::to_string(scene.frames) + " frames" : "") + "\n";
-        scenes.push_back({{"name", scene.name},
-                          {"purpose", scene.purpose},
-                          {"frames", scene.frames},
-                          {"camera", camera_json(found_camera(c, "scene " + scene.name), c.image_scale)}});
-    }
-    text += "points\n";
-    Json points = Json::array();
-    for (const PointSetSummary& set : point_set_list()) {
-        text += "  " + set.name + std::string(8 - set.name.size(), ' ') + set.purpose + "\n";
-        points.push_back({{"name", set.name}, {"purpose", set.purpose}, {"count", set.count}});
-    }
-    Json report = new_report("scene list");
-    report["scenes"] = scenes;
-    report["points"] = points;
-    return tell(text, report, run.json);
-}
-
 void add_list(Verb& scene, Action& chosen) {
     Verb& verb = add_verb(scene, "list", "list the scenes and their cameras", "petzval scene list");
     auto run = std::make_shared<RunFlags>();
     run->add_json_to(verb);
-    when_typed(verb, [run, &chosen] { chosen = [run] { return list_scenes(*run); }; });
+    when_typed(verb, [run, &chosen] {
+        chosen = [run] { return tell(scene_list_text(), Json::parse(scene_list_record()), run->json); };
+    });
 }
 
 void add_make(Verb& scene, Action& chosen) {

@@ -14,6 +14,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
+TEST(SceneList, NamesEverySceneAndPointSet) {
+    const std::string text = scene_list_text(), record = scene_list_record();
+    const auto both_hold = [&](const std::string& words, const std::string& name) {
+        EXPECT_NE(text.find(words), std::string::npos) << words;
+        EXPECT_NE(record.find("\"name\":\"" + name + "\""), std::string::npos) << record;
+    };
+    for (const SceneSummary& scene : scene_list()) both_hold(scene.purpose + "\n", scene.name);
+    for (const PointSetSummary& set : point_set_list()) both_hold(set.purpose + "\n", set.name);
+    EXPECT_NE(record.find("\"camera\":{"), std::string::npos);
+}
+
 struct SceneFilesTest : testing::Test {
     SceneFilesTest() {
         files.scene = "post";

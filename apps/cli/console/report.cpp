@@ -9,19 +9,9 @@ namespace petzval::cli {
 
 Json new_report(const std::string& verb) { return Json::parse(empty_record(verb)); }
 
-Json number(double value) { return Json::parse(record_of_number(value)); }
-
 Json json_of(const std::string& text) { return Json::parse(record_of_json(text)); }
 
-Json camera_json(const FoundCamera& camera, ImageScale image_scale) {
-    return Json::parse(record_of_camera(camera, image_scale));
-}
-
 Json look_json(const Look& look) { return Json::parse(look_to_json(look)); }
-
-Json lens_json(const Look& look, const std::string& description) {
-    return Json::parse(record_of_lens(look, description));
-}
 
 Json finished(Json report, const Stopwatch& watch) {
     report["seconds"]["total"] = watch.seconds();

@@ -16,14 +16,10 @@ using Json = nlohmann::ordered_json;  // keys stay in the order in which they ar
 // schema, program, verb, and every key that a report always holds, with nothing in them yet.
 Json new_report(const std::string& verb);
 
-// JSON has no infinity; see write_report.
-Json number(double value);
 // Parses JSON of the library, where infinity is 1e999. Requires: it is JSON.
 Json json_of(const std::string& text);
-Json camera_json(const FoundCamera& camera, ImageScale image_scale);
 // The look in the form of --save-look.
 Json look_json(const Look& look);
-Json lens_json(const Look& look, const std::string& description);
 // The report with the seconds of the whole verb and its memory.
 Json finished(Json report, const Stopwatch& watch);
 

@@ -38,6 +38,10 @@ PETZVAL_API Status check(const SceneFiles& files);
 // Sets the size of a picture; a side that is not given keeps the shape that the settings had.
 PETZVAL_API void set_size(SceneSettings& settings, std::optional<int> width, std::optional<int> height);
 
+// The scenes and point sets with their cameras, as `petzval scene list` shows them: for people, and its JSON.
+PETZVAL_API std::string scene_list_text();
+PETZVAL_API std::string scene_list_record();
+
 // A scene's camera in the form of a file's camera; `origin`: such as "scene night".
 PETZVAL_API FoundCamera found_camera(const Camera& camera, const std::string& origin);
 
