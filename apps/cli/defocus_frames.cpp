@@ -58,15 +58,10 @@ std::vector<std::string> TrackFlags::given() const {
     return names;
 }
 
-MotionReading TrackFlags::motion_reading() const {
-    const MotionScale scale = motion_scale.value_or(MotionScale{});
-    using From = MotionReading::From;
-    From from = From::File;
-    if (motion == "still") from = From::Still;
-    if (motion == "estimate") from = From::Flow;
-    const bool reads = motion != "off" && from == From::File;
-    return {
-        .from = from, .wanted = reads, .layer = reads ? motion : "", .scale_x = scale.x, .scale_y = scale.y};
+MotionReading TrackFlags::reading() const {
+    MotionReading reading = motion_reading(motion);
+    if (motion_scale) reading.scale_x = motion_scale->x, reading.scale_y = motion_scale->y;
+    return reading;
 }
 
 bool is_sequence(const DefocusFlags& flags) {
@@ -85,9 +80,6 @@ bool is_sequence(const DefocusFlags& flags) {
                                       {flags.track.motion_scale.has_value(), "--motion-scale"}})
         if (given && flags.track.temporal == 0)
             throw UsageError(std::string(name) + " has no effect without --temporal");
-    for (const char* without : {"off", "still", "estimate"})
-        if (flags.track.motion == without && flags.track.motion_scale)
-            throw UsageError(std::string("--motion-scale has no effect with --motion ") + without);
     return true;
 }
 

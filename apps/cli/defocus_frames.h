@@ -25,7 +25,7 @@ struct TrackFlags {
 
     void add_to(Verb& verb);
     std::vector<std::string> given() const;
-    MotionReading motion_reading() const;
+    MotionReading reading() const;
     // "1024:3.2m" has a unit, as --focus has. Throws UsageError if a value is not a length.
     std::vector<std::string> rack_in_metres() const;
 };

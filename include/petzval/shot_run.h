@@ -119,9 +119,16 @@ PETZVAL_API Status check(const ShotRunSettings& settings);
 // The part of it about a look and the pictures of its shot, for hosts that choose the rest later.
 PETZVAL_API Status check(const ShotSource& source, const Look& look);
 
+// ShotRunSettings::motion by one word: "off", cameras only; "still", no motion; "estimate", from colour and
+// depth; else the layer of the vectors, empty: found by name.
+PETZVAL_API MotionReading motion_reading(const std::string& word);
+// The word for which motion_reading() returns this choice.
+PETZVAL_API std::string motion_word(const MotionReading& motion);
+
 // Settings as JSON: {"input", "output", "frames": "1001-1100", "look": {…}, "camera": {"f_number", …},
 // "focus_at": [x, y], "depth": FILE, "depth_kind", "depth_channel", "layer", "layers": […], "behind",
-// "holdout", "mask", "merge": […], "lights", "track", "rack": […], "focus_speed", "temporal", "existing":
+// "holdout", "mask", "merge": […], "lights", "track", "rack": […], "focus_speed", "temporal",
+// "motion": as motion_reading() takes it, "motion_scale": [x, y] (y upwards), "existing":
 // "replace" | "keep" | "update", "missing": "fail" | "skip" | "black", "retries", "report", "view",
 // "overscan", "region": [x0, y0, x1, y1], "exposure", "contrast", "tone", "threads", "max_memory_bytes"}.
 // Errors: InvalidArgument naming an unknown key or a wrong value.

@@ -39,6 +39,20 @@ Status check_view(const ShotRunSettings& settings) {
     return Done{};
 }
 
+// Refuses motion without neighbouring frames, and a scale without vectors.
+Status check_motion_reading(const ShotRunSettings& settings) {
+    const MotionReading& motion = settings.motion;
+    const bool is_scaled = motion.scale_x != 1 || motion.scale_y != 1;
+    if (settings.temporal == 0) {
+        const char* const without = " has no effect without shot.temporal";
+        if (is_scaled) return refused("read.motion.scale", without);
+        const bool is_chosen = motion.from != MotionReading::From::File || !motion.layer.empty();
+        return is_chosen ? Status(refused("read.motion.layer", without)) : Done{};
+    }
+    if (!is_scaled || motion.wanted) return Done{};
+    return refused("read.motion.scale", " has no effect with read.motion.layer " + motion_word(motion));
+}
+
 // The track, and neighbouring frames.
 Status check_frames(const ShotRunSettings& settings) {
     const bool racks = !settings.rack.empty();
@@ -49,7 +63,7 @@ Status check_frames(const ShotRunSettings& settings) {
         if (const Status one = contradict(racks, "shot.rack", given, field); !one) return one;
     if (settings.focus_speed && settings.track_file.empty() && !racks)
         return refused("shot.focus_speed", " has no effect without shot.track or shot.rack");
-    if (settings.temporal == 0) return Done{};
+    if (const Status fine = check_motion_reading(settings); !fine || settings.temporal == 0) return fine;
     const ShotSource& source = settings.source;
     for (const auto& [given, other] :
          {std::pair(!source.behind.empty(), "shot.behind"), std::pair(!source.merge.empty(), "shot.merge"),
@@ -101,6 +115,20 @@ Status check_output(const ShotRunSettings& settings) {
 }
 
 }  // namespace
+
+MotionReading motion_reading(const std::string& word) {
+    using From = MotionReading::From;
+    if (word == "still") return {.from = From::Still};
+    if (word == "estimate") return {.from = From::Flow};
+    if (word == "off") return {};
+    return {.wanted = true, .layer = word};
+}
+
+std::string motion_word(const MotionReading& motion) {
+    if (motion.from == MotionReading::From::Still) return "still";
+    if (motion.from == MotionReading::From::Flow) return "estimate";
+    return motion.wanted ? motion.layer : "off";
+}
 
 Status check(const ShotSource& source, const Look& look) {
     if (look.expand_highlights && !source.behind.empty())

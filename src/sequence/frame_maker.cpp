@@ -48,12 +48,8 @@ MadeWith made_with(const ShotRunSettings& settings, const FrameContext& context)
     if (settings.overscan_px) made.add("shot.overscan_px", double(*settings.overscan_px));
     if (settings.temporal > 0) {
         made.add("shot.temporal", double(settings.temporal));
-        using From = MotionReading::From;
-        if (settings.motion.from != From::File)
-            made.add("read.motion.layer", settings.motion.from == From::Still ? "still" : "estimate");
-        else if (!settings.motion.wanted)
-            made.add("read.motion.layer", "off");
-        if (!settings.motion.layer.empty()) made.add("read.motion.layer", settings.motion.layer);
+        if (const std::string word = motion_word(settings.motion); !word.empty())
+            made.add("read.motion.layer", word);
         if (settings.motion.scale_x != 1 || settings.motion.scale_y != 1)
             made.add("read.motion.scale",
                      plain(settings.motion.scale_x, 9) + "," + plain(settings.motion.scale_y, 9));

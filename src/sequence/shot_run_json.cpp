@@ -175,8 +175,21 @@ constexpr Key kKeys[] = {
     {"track", [](const Json& v, ShotRunSettings& s) { s.track_file = text_in(v); }},
     {"rack", [](const Json& v, ShotRunSettings& s) { s.rack = texts_in(v); }},
     {"focus_speed", [](const Json& v, ShotRunSettings& s) { s.focus_speed = number_in(v); }},
-    {"temporal",
-     [](const Json& v, ShotRunSettings& s) { s.temporal = whole_in(v), s.motion.wanted = s.temporal > 0; }},
+    {"temporal", [](const Json& v, ShotRunSettings& s) { s.temporal = whole_in(v); }},
+    {"motion",
+     [](const Json& v, ShotRunSettings& s) {
+         const MotionReading motion = motion_reading(text_in(v));
+         s.motion.from = motion.from;
+         s.motion.wanted = motion.wanted;
+         s.motion.layer = motion.layer;
+     }},
+    {"motion_scale",
+     [](const Json& v, ShotRunSettings& s) {
+         const auto scale = numbers_in(v, 2);
+         if (scale[0] == 0 || scale[1] == 0) throw WrongValue{"is not two numbers other than 0"};
+         s.motion.scale_x = scale[0];
+         s.motion.scale_y = scale[1];
+     }},
     {"existing",
      [](const Json& v, ShotRunSettings& s) {
          s.existing = choice_in<ExistingOutputs>(v, {{"replace", ExistingOutputs::Replace},
@@ -220,6 +233,7 @@ Result<ShotRunSettings> shot_run_from_json(const std::string& text) {
     const Json json = Json::parse(text, nullptr, false);
     if (json.is_discarded()) return invalid("settings of a shot run: not JSON");
     ShotRunSettings settings;
+    settings.motion = motion_reading("");
     try {
         take_all(json, kKeys, "", settings);
     } catch (const WrongValue& wrong) {

@@ -248,6 +248,38 @@ TEST(ShotRunSettings, ChoicesWithoutUseForTheOutputAreRefusedByTheirField) {
     EXPECT_EQ(field("out.exr", part), "shot.region");
 }
 
+TEST(ShotRunSettings, MotionIsChosenByOneWord) {
+    for (const char* word : {"", "off", "still", "estimate", "Vector"})
+        EXPECT_EQ(motion_word(motion_reading(word)), word);
+    const auto motion = [](const std::string& more) {
+        return shot_run_from_json(R"({"input": "a.####.exr", "output": "b.####.exr")" + more + "}")
+            .value()
+            .motion;
+    };
+    EXPECT_TRUE(motion(R"(, "temporal": 2)").wanted) << "vectors are found by name";
+    EXPECT_FALSE(motion(R"(, "motion": "off", "temporal": 2)").wanted);
+    EXPECT_EQ(motion(R"(, "motion": "estimate", "temporal": 2)").from, MotionReading::From::Flow);
+    const MotionReading scaled = motion(R"(, "temporal": 2, "motion_scale": [2, -1], "motion": "Vector")");
+    EXPECT_EQ(scaled.layer, "Vector");
+    EXPECT_EQ(std::pair(scaled.scale_x, scaled.scale_y), std::pair(2.0, -1.0));
+}
+
+TEST(ShotRunSettings, MotionIsForNeighboursAndItsScaleForVectors) {
+    ShotRunSettings settings;
+    const auto refused = [&](int temporal, const char* word, double scale) {
+        settings.temporal = temporal, settings.motion = motion_reading(word);
+        settings.motion.scale_x = scale;
+        const Status fine = check(settings);
+        return fine ? "" : fine.error().field;
+    };
+    EXPECT_EQ(refused(0, "", 1), "");
+    EXPECT_EQ(refused(0, "Vector", 1), "read.motion.layer");
+    EXPECT_EQ(refused(0, "still", 1), "read.motion.layer");
+    EXPECT_EQ(refused(0, "", 2), "read.motion.scale");
+    EXPECT_EQ(refused(1, "Vector", 2), "");
+    for (const char* word : {"off", "still", "estimate"}) EXPECT_EQ(refused(1, word, 2), "read.motion.scale");
+}
+
 TEST(ShotRunSettings, WrongJsonIsRefusedByItsKey) {
     for (const auto& [text, says] : std::initializer_list<std::pair<const char*, const char*>>{
              {"", "not JSON"},
@@ -261,6 +293,7 @@ TEST(ShotRunSettings, WrongJsonIsRefusedByItsKey) {
              {R"({"input": "a.exr", "output": "b.exr", "camera": {"f_number": "two"}})",
               "camera.f_number is not"},
              {R"({"input": "a.exr", "output": "b.exr", "existing": "maybe"})", "replace, keep, update"},
+             {R"({"input": "a.exr", "output": "b.exr", "motion_scale": [0, 1]})", "motion_scale is not"},
              {R"({"input": "a.exr", "output": "b.exr", "look": {"lens": {"blades": true}}})", "lens.blades"},
              {R"({"input": "a.exr", "output": "b.tif"})", ".exr or .png"}}) {
         const auto settings = shot_run_from_json(text);

@@ -197,7 +197,7 @@ ShotRunSettings DefocusFlags::settings() const {
     settings.frames = frames.frames, settings.missing = frames.missing;
     settings.track_file = track.file, settings.rack = track.rack_in_metres();
     settings.focus_speed = track.focus_speed;
-    settings.temporal = track.temporal, settings.motion = track.motion_reading();
+    settings.temporal = track.temporal, settings.motion = track.reading();
     settings.kernel_cache_folder = kernel_cache_folder();
     settings.engine_options = look.engine_options_json().dump();
     settings.warnings = look.idle_in_file();
