@@ -13,10 +13,10 @@
 
 namespace petzval::engine {
 
-// What of a highlight's kernel is seen, and therefore as precise as is visible.
+// The parts of a highlight's kernel that are bright enough to be seen, and must be precise.
 enum class Seen : int { Nothing, Disc, DiscAndRim };
 
-// Kernels of highlights. An ask's piece holds the size of the square and what of the kernel is seen; step and
+// Kernels of highlights. An ask's piece holds the size of the square and the parts that are seen; step and
 // zone are those of the bank of points of that precision.
 class HighlightKernels final : public device::KernelSource, public device::Memory::Thing {
 public:

@@ -83,8 +83,9 @@ device::KernelAsk LightsPlanner::ask(const Highlight& h) const {
     const auto bright_on = [&](float radius_px) {
         return light > bright_disc_ * (float(M_PI) * radius_px * radius_px + 1);
     };
-    const bool rim = bright_on(float(input_.lens.level(0).reach_px(double(h.coc_px))));
-    const Seen seen = rim ? Seen::DiscAndRim : bright_on(h.coc_px) ? Seen::Disc : Seen::Nothing;
+    Seen seen = Seen::Nothing;
+    if (bright_on(h.coc_px)) seen = Seen::Disc;
+    if (bright_on(float(input_.lens.level(0).reach_px(double(h.coc_px))))) seen = Seen::DiscAndRim;
     return kernels_.ask(h, input_.lens.field_at(h.x, h.y), seen);
 }
 

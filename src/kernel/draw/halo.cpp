@@ -70,7 +70,8 @@ PointSpread with_halo(const PointSpread& fine, const PointSpread& cells, int cel
     const auto end = float(radius_px), begin = end - float(cell_px);
     const auto share_of_core = [&](float x, float y) {
         const float square = x * x + y * y;
-        return square <= begin * begin ? 1 : square >= end * end ? 0 : fade(std::sqrt(square), begin, end);
+        if (square <= begin * begin) return 1.0f;
+        return square >= end * end ? 0.0f : fade(std::sqrt(square), begin, end);
     };
     const float per_pixel = 1 / float(cell_px * cell_px);
     PointSpread whole{extent, Picture(extent.width(), extent.height()), false};

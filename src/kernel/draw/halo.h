@@ -10,11 +10,12 @@ namespace petzval::kernel {
 // outwards. 1: the kernel is small, and is drawn in pixels alone.
 int halo_cell_px(double size_px);
 
-// How far from the source, in pixels, cells of a whole kernel tell from their neighbours.
+// Distance from the source, in pixels, of the farthest cell that stands out from its neighbours.
+// cells: the whole kernel.
 int structure_px(const PointSpread& cells, int cell_px);
 
-// `fine`, drawn in pixels and complete up to `radius_px`, continued by `cells`, which are the same kernel in
-// cells: both are shares of one whole. The kernel ends at reach_px.
+// Joins two drawings of one kernel. `fine` is drawn in pixels and complete up to `radius_px`; `cells`
+// continue it up to `reach_px`, where the kernel ends.
 PointSpread with_halo(const PointSpread& fine, const PointSpread& cells, int cell_px, int radius_px,
                       double reach_px);
 

@@ -69,7 +69,7 @@ TEST(Halo, CellsContinueTheCoreAsIfAllWereDrawnInPixels) {
 }
 
 TEST(Halo, BrightRimsAreStructure) {
-    // An even disc: all that is to be seen is its rim.
+    // An even disc: only its rim is visible.
     const std::vector<MeshBand> disc = {{{1, 1, 1}, [](std::span<const Point> points, Point* landed) {
                                              for (const Point& p : points) *landed++ = 50.0 * p;
                                          }}};

@@ -33,7 +33,7 @@ struct MeshBand {
 // Channels sum to 1; colours are not mapped.
 PointSpread mesh_kernel(const MeshPupil& pupil, const std::vector<MeshBand>& bands);
 
-// What of the same kernel lands within a window.
+// The part of the same kernel that lands within a window.
 PointSpread mesh_kernel(const MeshPupil& pupil, const std::vector<MeshBand>& bands, const Rect& window);
 
 // Resolution of the mesh for a kernel that reaches size_px: cells two pixels thick (three at 200 px), chords

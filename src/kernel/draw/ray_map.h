@@ -8,6 +8,7 @@
 #include "kernel/model/coverage.h"
 #include "optics/beam.h"
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -64,6 +65,13 @@ struct RayMap {
 
     RayMap& add(double factor, const RayMap& other);
 };
+
+// Light per area of the pupil at a point; fitted light may fall below 0, and counts as none there.
+inline double light_at(const RayMap& map, const PupilPowers& powers) {
+    double light = 0;
+    for (std::size_t i = 0; i < map.light.size(); ++i) light += map.light[i] * powers.even[i];
+    return std::max(0.0, light);
+}
 
 // Fits the maps of one field position at several wavelengths, through the same points of the stop.
 class RayMapFitter {
