@@ -65,7 +65,7 @@ PointSpread with_halo(const PointSpread& fine, const PointSpread& cells, int cel
     const Rect& e = cells.extent;
     const int reach = int(std::ceil(reach_px));
     const Rect extent =
-        Rect{(e.x0 - 1) * cell_px, (e.y0 - 1) * cell_px, e.x1 * cell_px + 1, e.y1 * cell_px + 1}.intersected(
+        Rect{(e.x0 - 1) * cell_px, (e.y0 - 1) * cell_px, e.x1 * cell_px, e.y1 * cell_px}.intersected(
             {-reach, -reach, reach + 1, reach + 1});
     const auto end = float(radius_px), begin = end - float(cell_px);
     const auto share_of_core = [&](float x, float y) {

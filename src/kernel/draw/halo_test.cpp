@@ -53,6 +53,7 @@ TEST(Halo, CellsContinueTheCoreAsIfAllWereDrawnInPixels) {
     const PointSpread whole = mesh_kernel(pupil(kSize), bands(kSize, 10, 1));
     const PointSpread joined = with_halo(core, cells, cell, radius, kSize);
     EXPECT_NEAR(sum_of(joined).g, 1, 1e-5);
+    EXPECT_LE(joined.extent.x1, cells.extent.x1 * cell);  // no weight is read from beside the cells
     const float even_disc = float(1 / (std::numbers::pi * kSize * kSize));
     constexpr int kRim = 176;  // which is as soft as a cell
     for (int y = -kRim; y <= kRim; ++y)
