@@ -131,7 +131,7 @@ class Usage(CommandLineTest):
             self.assertEqual(self.succeed("help", *verb.split()).out, self.succeed(*verb.split(), "--help").out)
         self.refuse(2, "help", "defokus", says=["no verb defokus (did you mean defocus?)"])
         self.refuse(2, "help", "lens", "psv", says=["no verb psv (did you mean psf?)"])
-        self.refuse(2, "help", "defocus", "--format", "man", says=["--format", "no verb"])
+        self.refuse(2, "help", "defocus", "--format", "man", says=["--format", "leave out the verb"])
 
     def test_a_missing_lens_file_is_not_taken_for_a_misspelt_lens(self):
         for name in ("missing.zmx", "folder/missing", "missing.json"):
