@@ -181,7 +181,7 @@ class Looks(CommandLineTest):
 
     def test_a_switch_takes_no_value_but_on_and_off(self):
         for flag in ("--wave=x", "--quiet=2", "--overwrite=maybe"):
-            self.refuse(2, "defocus", "in.exr", "-o", "no.exr", *CAMERA, flag, says=[flag.split("=")[0], "on and off"])
+            self.refuse(2, "defocus", "in.exr", "-o", "no.exr", *CAMERA, flag, says=[flag.split("=")[0], "on or off"])
 
 
 if __name__ == "__main__":
