@@ -37,8 +37,8 @@ protected:
 
     static std::vector<std::string> said_of_memory(const DefocusReport& report) {
         std::vector<std::string> said = report.warnings;
-        std::erase_if(
-            said, [](const std::string& line) { return line.find("memory left") == std::string::npos; });
+        std::erase_if(said,
+                      [](const std::string& line) { return line.find("memory left") == std::string::npos; });
         return said;
     }
 

@@ -88,5 +88,9 @@ TEST(Halo, AWindowHoldsItsPartOfTheWholeKernel) {
                         whole.weights(x - whole.extent.x0, y - whole.extent.y0).g, 1e-8);
 }
 
+TEST(Halo, AWindowBesideTheKernelHoldsNothing) {
+    EXPECT_TRUE(mesh_kernel(pupil(60), bands(60, 0, 1), {100, 100, 120, 120}).extent.empty());
+}
+
 }  // namespace
 }  // namespace petzval::kernel

@@ -244,6 +244,7 @@ PointSpread mesh_kernel(const MeshPupil& pupil, const std::vector<MeshBand>& ban
 PointSpread mesh_kernel(const MeshPupil& pupil, const std::vector<MeshBand>& bands, const Rect& window) {
     const Landed landed(pupil, bands);
     const Rect extent = landed.extent().intersected(window);
+    if (extent.empty()) return {{}, {}, false};
     return spread_of(landed.drawn(extent), extent, landed.light());
 }
 

@@ -33,7 +33,7 @@ struct MeshBand {
 // Channels sum to 1; colours are not mapped.
 PointSpread mesh_kernel(const MeshPupil& pupil, const std::vector<MeshBand>& bands);
 
-// The part of the same kernel that lands within a window.
+// The part of the same kernel that lands within a window; nothing if all lands beside it.
 PointSpread mesh_kernel(const MeshPupil& pupil, const std::vector<MeshBand>& bands, const Rect& window);
 
 // Resolution of the mesh for a kernel that reaches size_px: cells two pixels thick (three at 200 px), chords
