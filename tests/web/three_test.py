@@ -19,7 +19,7 @@ from pictures import camera_attributes, read_exr, write_exr
 
 WIDTH, HEIGHT = 320, 180
 README = (ROOT / "web/three/README.md").read_text()
-# What the block of the README leaves to its reader, and a frame at the end.
+# Code that the README leaves to its reader, and a frame at the end.
 AROUND = """const {{ renderer, scene, camera }} = demo, width = {width}, height = {height};
 {block}
 const shown = () => (composer.render(), renderer.domElement.toDataURL());
