@@ -1,5 +1,5 @@
-"""Makes pictures of docs/guide: deep, render passes, troubleshooting, camera numbers, soft depth, presets, OpenFX, GEGL, kit,
-packages.
+"""Makes pictures of docs/guide: deep, plate, render passes, troubleshooting, camera numbers, soft depth, presets, OpenFX,
+GEGL, kit, packages.
 
 Usage: guide_pictures.py PROGRAM [NAME…]. Writes docs/pictures/guide-NAME.png, or .svg. OpenFX needs `ninja petzval_ofx
 ofx_check`, GEGL its operation, `gegl` and `oiiotool`, the kit a Vulkan driver.
@@ -66,6 +66,13 @@ def deep(studio):
     cubes, tori = studio.scene("cubes"), studio.scene("tori")
     write("deep", [read_png(studio.shown(cubes)), read_png(studio.shown(tori))],
           [studio.blurred(cubes, "--merge", tori), studio.blurred(cubes, "--holdout", tori)])
+
+
+def plate(studio):
+    hidden, matte = studio.path("exr"), studio.path("png")
+    post, focus = studio.scene("post", "--frame", 26, "--layers", hidden), ["--focus", "13m"]
+    run(studio.program, "defocus", post, "-o", matte, "--view", "guessed", *focus)
+    write("plate", [studio.blurred(post, *focus), read_png(matte), studio.blurred(post, *focus, "--plate", hidden)])
 
 
 def render_passes(studio):
@@ -157,7 +164,7 @@ def packages(studio):
 
 def main(program, *names):
     with tempfile.TemporaryDirectory() as folder:
-        for make in (deep, render_passes, troubleshooting, camera_numbers, soft_depth, presets, openfx, gegl, kit, packages):
+        for make in (deep, plate, render_passes, troubleshooting, camera_numbers, soft_depth, presets, openfx, gegl, kit, packages):
             if not names or make.__name__.replace("_", "-") in names:
                 make(Studio(pathlib.Path(program).resolve(), pathlib.Path(tempfile.mkdtemp(dir=folder))))
 

@@ -34,26 +34,27 @@ def chunks(data):
 
 
 def read_png(path):
-    """Width, height and rows of bytes of an 8-bit RGB file."""
+    """Width, height and rows of bytes, as 8-bit RGB: of such a file, or of 16-bit grey, as mattes are."""
     data = path.read_bytes()
     parts = list(chunks(data))
     width, height, bits, kind = struct.unpack(">IIBB", parts[0][1][:10])
-    assert (bits, kind) == (8, 2), path
+    assert (bits, kind) in ((8, 2), (16, 0)), path
+    step = 3 if kind == 2 else 2  # bytes per pixel
     raw = zlib.decompress(b"".join(body for name, body in parts if name == b"IDAT"))
-    stride, rows, before = 3 * width, [], bytearray(3 * width)
+    stride, rows, before = step * width, [], bytearray(step * width)
     for y in range(height):
         method, row = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
-        unfilter(method, row, before)
-        rows.append(row)
+        unfilter(method, row, before, step)
+        rows.append(row if kind == 2 else bytes(code for code in row[::2] for _ in range(3)))
         before = row
     return width, height, rows
 
 
-def unfilter(method, row, above):
+def unfilter(method, row, above, step):
     """PNG specification, 9.2: each byte was stored less a guess from its left and upper neighbours."""
     for i in range(len(row)):
-        a, b = row[i - 3] if i >= 3 else 0, above[i]
-        c = above[i - 3] if i >= 3 else 0
+        a, b = row[i - step] if i >= step else 0, above[i]
+        c = above[i - step] if i >= step else 0
         if method == 4:
             pa, pb, pc = abs(b - c), abs(a - c), abs(a + b - 2 * c)
             guess = a if pa <= pb and pa <= pc else b if pb <= pc else c
