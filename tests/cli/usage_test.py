@@ -121,6 +121,18 @@ class Usage(CommandLineTest):
         self.refuse(2, "defocus", "in.exr", "more.exr", "-o", "out.exr", says=["more.exr"])
         self.refuse(2, "inspect", "in.exr", "--bloom", "3", says=["--bloom"])
 
+    def test_a_flag_of_another_program_leads_to_ours(self):
+        for theirs, ours in (("--aperture", "--fstop"), ("--f-number", "--fstop"), ("--focus-distance", "--focus")):
+            self.refuse(2, "defocus", "in.exr", "-o", "out.exr", theirs, "3", says=[theirs, f"did you mean {ours}?"])
+        self.assertNotIn("--fstop", self.refuse(2, "scene", "list", "--aperture", "3", says=["--aperture"]).err)
+
+    def test_a_flag_does_not_take_the_next_one_for_its_value(self):
+        for following in ("-o", "--width"):
+            self.refuse(2, "scene", "make", "slant", "--layers", following, "out.exr",
+                        says=[f"--layers needs a value, but is followed by {following}"])
+        self.refuse(2, "lens", "psf", "doublet", "-o", "d.png", "--defocus", "-o", says=["--defocus", "followed by -o"])
+        self.succeed("lens", "psf", "doublet", "-o", "d.png", "--defocus", "-9")
+
     def test_an_output_without_its_flag_is_explained(self):
         self.refuse(2, "defocus", "in.exr", "out.exr", says=["out.exr", "-o out.exr"])
         given = self.refuse(2, "defocus", "in.exr", "more.exr", "-o", "out.exr", says=["more.exr"])

@@ -6,6 +6,7 @@
 #include "help/help_forms.h"
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <set>
 
@@ -42,6 +43,16 @@ class Help : public CLI::FormatterBase {
     }
 };
 
+// The flag for a name that other programs use, where the verb has it.
+std::string by_common_name(const std::string& word, const Verb& verb) {
+    static const std::map<std::string, std::string> kFlags{{"--aperture", "--fstop"},
+                                                           {"--f-number", "--fstop"},
+                                                           {"--fnumber", "--fstop"},
+                                                           {"--focus-distance", "--focus"}};
+    const auto found = kFlags.find(word);
+    return found != kFlags.end() && verb.get_option_no_throw(found->second) ? found->second : "";
+}
+
 std::string unknown_argument(const Verb& verb) {
     const auto extras = verb.remaining(true);
     // If a verb is expected, the first word is the verb, and later words were meant for it.
@@ -54,8 +65,10 @@ std::string unknown_argument(const Verb& verb) {
     if (word.starts_with("-")) {
         for (const CLI::Option* flag : verb.get_options())
             for (const std::string& name : flag->get_lnames()) known.push_back("--" + name);
-        return "unknown flag " + word + did_you_mean(word, known) + "; " + full_name(verb) +
-               " --help lists the flags";
+        const std::string common = by_common_name(word, verb);
+        return "unknown flag " + word +
+               (common.empty() ? did_you_mean(word, known) : " (did you mean " + common + "?)") + "; " +
+               full_name(verb) + " --help lists the flags";
     }
     for (const CLI::App* sub : verb.get_subcommands({})) known.push_back(sub->get_name());
     if (known.empty()) {
@@ -112,13 +125,22 @@ void require_verb(const Verb& verb) {
 
 void use_our_help(Verb& program) { program.formatter(std::make_shared<Help>()); }
 
+namespace {
+
+// A negative number also begins with a dash.
+bool is_short_flag(const std::string& text, const Verb& verb) {
+    return text.size() == 2 && text[0] == '-' && verb.get_option_no_throw(text);
+}
+
+}  // namespace
+
 void FlagGroup::add(const std::string& name, const std::string& placeholder, const std::string& help,
                     std::function<void(const std::string&)> take) {
     CLI::Option* flag = verb_.add_option(
         name,
-        [spoken = long_name(name), take = std::move(take)](const CLI::results_t& texts) {
+        [spoken = long_name(name), take = std::move(take), &verb = verb_](const CLI::results_t& texts) {
             if (texts.size() > 1) throw UsageError(spoken + " is given more than once");
-            if (texts.front().starts_with("--"))
+            if (texts.front().starts_with("--") || is_short_flag(texts.front(), verb))
                 throw UsageError(spoken + " needs a value, but is followed by " + texts.front());
             take(texts.front());
             return true;
