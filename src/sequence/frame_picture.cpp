@@ -208,9 +208,11 @@ void FrameMaker::report_frame(const DefocusReport& done, double seconds) {
     record_["lens"]["description"] = done.lens;
     record_["radius_px"] = {{"farthest_behind", number(done.largest_radius_px)},
                             {"farthest_in_front", number(done.smallest_radius_px)}};
+    // A focused surface has a tiny radius, which rounding gives either sign.
+    const auto radius = [](double px) { return plain(px < 0.005 ? 0 : px, 3) + " px"; };
     note(done.engine + " on " + done.device + ", " + done.lens + ": blur radius " +
-         plain(std::max(-done.smallest_radius_px, 0.0), 3) + " px (foreground), " +
-         plain(std::max(done.largest_radius_px, 0.0), 3) + " px (background), " + plain(seconds, 3) + " s");
+         radius(-done.smallest_radius_px) + " (foreground), " + radius(done.largest_radius_px) +
+         " (background), " + plain(seconds, 3) + " s");
     if (const double largest = std::max(done.largest_radius_px, -done.smallest_radius_px);
         largest > std::max(shot_.place.display_window.width(), shot_.place.display_window.height()))
         warn({"a radius of " + plain(largest, 4) +

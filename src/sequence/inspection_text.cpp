@@ -87,7 +87,7 @@ void describe_camera(const FoundCamera& camera, const Words& in_words, std::ostr
                           const char* field) {
         out << "  " << what;
         if (found)
-            out << plain(found->value) << unit << "  (" << found->origin << ")\n";
+            out << plain(found->value) << unit << "  (" << said(found->origin, in_words) << ")\n";
         else
             out << "not in the file; give " << said(field, in_words) << "\n";
     };

@@ -141,6 +141,7 @@ class Inspect(CommandLineTest):
     def test_the_field_of_view_follows_from_the_camera(self):
         write_exr(self.path("in.exr"), picture(8, 6, 0.5, 2.0), attributes=camera_attributes(18, 36, 2, 3))  # 2 atan(36 / 36)
         self.assertIn("field of view   90 deg  (of the sensor's width at infinity)", self.succeed("inspect", "in.exr").out)
+        self.assertIn("focus distance  4 m  (--focus)", self.succeed("inspect", "in.exr", "--focus", "4").out)
 
 
 class Scene(CommandLineTest):
