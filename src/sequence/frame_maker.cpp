@@ -7,7 +7,9 @@
 #include "petzval/version.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <utility>
 
 namespace petzval::sequence {
@@ -178,14 +180,39 @@ void FrameMaker::name_track() {
         if (by_track && *found) (*found)->origin = "shot.track";
 }
 
-// Sets the widest aperture of the lens; a lens without a limit keeps the f-number of the file.
+// Sets the widest aperture of the lens; with a lens that has no limit, the f-number of the file stays.
 Status FrameMaker::open_wide() {
     const CameraChoice& choice = settings_.source.camera;
     if (!choice.wide_open || choice.f_number || choice.aperture_diameter_mm) return Done{};
     const auto widest = widest_f_number(*lens_);
     if (!widest) return widest.error();
-    if (*widest) shot_.camera.f_number = FoundNumber{**widest, "the widest aperture of " + lens_->name()};
+    if (*widest) {
+        shot_.camera.f_number = FoundNumber{**widest, "the widest aperture of " + lens_->name()};
+        return Done{};
+    }
+    const std::string why = "camera.f_number open: the lens " + lens_->name() + " has no widest aperture";
+    if (!shot_.camera.f_number)
+        return Error{ErrorCode::InvalidArgument, why + "; give a number, such as 2.8", "camera.f_number"};
+    note(why + "; that of the file stays");
     return Done{};
+}
+
+// A wrong unit of depth or focus puts the focus far from every surface.
+void FrameMaker::warn_if_nothing_is_sharp(const Camera& camera) {
+    const DepthReport& depth = shot_.depth_report;
+    const double focus = camera.focus_distance_m, near = depth.nearest_m, far = depth.farthest_finite_m;
+    if (!(near > 0) || (focus >= near && focus <= far)) return;
+    const auto coc = CircleOfConfusion::make(camera, shot_.place.display_window.width(), look().coc);
+    const auto is_sharp = [&](double depth_m) {
+        return std::abs(coc->radius_px(depth_m)) <= settings_.permissible_radius_px;
+    };
+    const bool has_sky = depth.misses > 0;
+    if (!coc || is_sharp(near) || is_sharp(far) ||
+        (has_sky && is_sharp(std::numeric_limits<double>::infinity())))
+        return;
+    warn({"no surface is in focus: the focus is at " + plain(focus, 3) + " m, and surfaces are " +
+          plain(near, 3) + " m to " + plain(far, 3) +
+          " m away; look at camera.focus_distance_m and at the unit of depth, depth.unit_scale_m"});
 }
 
 Status FrameMaker::choose_camera() {
@@ -205,6 +232,7 @@ Status FrameMaker::choose_camera() {
                          (host_.camera_example ? host_.camera_example(shot_.camera) : "")};
     note(camera_line(shot_.camera, shot_.image_scale));
     record_["camera"] = Json::parse(record_of_camera(shot_.camera, shot_.image_scale));
+    warn_if_nothing_is_sharp(*camera);
     const auto limits =
         focus_limits(*camera, shot_.place.display_window.width(), settings_.permissible_radius_px);
     if (limits)

@@ -64,6 +64,7 @@ private:
     void take_behind(SeenElsewhere seen);
     Status choose_camera();
     Status open_wide();
+    void warn_if_nothing_is_sharp(const Camera& camera);
     Status grow();
     Result<Rect> wanted_window();
     Status grow_to(const Rect& window);

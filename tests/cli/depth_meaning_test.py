@@ -113,6 +113,18 @@ class DepthMeaning(CommandLineTest):
         self.assertIn("larger than the picture",
                       self.succeed("defocus", "z.exr", "-o", "out.exr", "--focal-length", "850").err)
 
+    def test_a_focus_where_no_surface_is_is_spoken_of(self):
+        write_exr(self.path("z.exr"), picture(WIDTH, HEIGHT, 0.5, lambda x, y: 2 + x / 10), attributes=CAMERA)
+        for flags in (["--focus", "200"], ["--focus", "20cm"], ["--focus", "3", "--unit-scale", "1cm"]):
+            error = self.succeed("defocus", "z.exr", "-o", "out.exr", "--focal-length", "300", *flags).err
+            self.assertIn("no surface is in focus", error, flags)
+        for flags in (["--focus", "3"], ["--focus", "1.9999"], ["--focus", "200", "--near-scale", "0"]):
+            error = self.succeed("defocus", "z.exr", "-o", "out.exr", "--focal-length", "300", *flags).err
+            self.assertNotIn("no surface is in focus", error, flags)
+        sky = picture(WIDTH, HEIGHT, 0.5, lambda x, y: 2 if x < 9 else 0)
+        write_exr(self.path("sky.exr"), sky, attributes=CAMERA)
+        self.assertNotIn("no surface is in focus", self.succeed("defocus", "sky.exr", "-o", "out.exr", "--focus", "1km").err)
+
     def test_feet_and_inches_are_lengths(self):
         for text, metres in (("8ft", 2.4384), ("7ft6in", 2.286), ("7'6\"", 2.286), ("10in", 0.254), ("3'", 0.9144)):
             report = self.report("defocus", "in.exr", "--depth", "z.png", "--depth-kind", "inverse", "-o", "out.exr",

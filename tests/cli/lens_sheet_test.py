@@ -1,6 +1,7 @@
 """sheet --lenses: one picture through several lenses, each wide open."""
 import unittest
 
+from pictures import picture, write_exr
 from program import CommandLineTest
 
 
@@ -44,6 +45,10 @@ class LensSheet(CommandLineTest):
         self.assertAlmostEqual(report["camera"]["f_number"], 3.6, places=1)
         report = self.report("defocus", "in.exr", "-o", "o.exr", "--fstop", "open")
         self.assertAlmostEqual(report["camera"]["f_number"], 1.4, places=3)  # the file's: no limit
+        words = "--fstop open: the lens ideal has no widest aperture"
+        self.assertIn(words, self.succeed("defocus", "in.exr", "-o", "o.exr", "--fstop", "open").err)
+        write_exr(self.path("bare.exr"), picture(32, 20, 0.5, 3))
+        self.refuse(2, "defocus", "bare.exr", "-o", "o.exr", "--fstop", "open", "--focal-length", "50", says=[words, "2.8"])
         self.refuse(2, "scene", "make", "night", "-o", "n.exr", "--fstop", "open", says=["--fstop"])
 
 
