@@ -169,7 +169,9 @@ private:
             if (names.empty()) {
                 names = std::move(values);
                 if (std::find(names.begin(), names.end(), "frame") == names.end())
-                    return wrong("no column is called frame; the first line names the columns", where);
+                    return wrong(
+                        "no column is called frame; the first line names the columns, with commas between",
+                        where);
                 if (std::set<std::string>(names.begin(), names.end()).size() != names.size())
                     return wrong("a column occurs twice", where);
                 continue;
@@ -219,15 +221,20 @@ private:
                                   (known->scale == Scale::Even ? std::isfinite(*read) : *read > 0) &&
                                   (known->scale != Scale::Stops || std::isfinite(*read));
                 if (!fits)
-                    return wrong(std::string(name).append(" ").append(value) +
-                                     (known->scale == Scale::Even ? " must be a finite number"
-                                                                  : " must be a number above 0"),
-                                 where);
+                    return wrong(
+                        std::string(name).append(" ").append(value) +
+                            (known->scale == Scale::Even       ? " must be a finite number"
+                             : known->scale == Scale::Dioptres ? " must be metres above 0, without a unit"
+                                                               : " must be a number above 0"),
+                        where);
                 column(name).numbers[*frame] = on_scale(known->scale, *read);
             } else if (name == kFollow) {
                 column(name).keys[*frame] = value;
             } else if (const auto taken = look_with(Look{}, name, value); !taken) {
-                return wrong(taken.error().message, where);
+                std::vector<std::string> ours;
+                for (const Known& camera : kCamera) ours.emplace_back(camera.name);
+                const std::string near = did_you_mean(name, ours);
+                return wrong(near.empty() ? taken.error().message : "unknown column " + name + near, where);
             }
             column(name).keys[*frame] = value;
         }
