@@ -114,12 +114,13 @@ CommandLine parsed(std::span<char*> words) {
         if (word.empty() || word[0] != '-') {
             line.bundles.push_back(word);
         } else if (i + 1 == words.size()) {
-            line.problem = word + " needs a value, or is unknown; see --help";
+            line.problem = word + " needs a value, or is unknown; see ofx-check --help";
         } else if (!take_option(line, word, words[++i])) {
-            line.problem = "'" + word + " " + words[i] + "' is not understood; see --help";
+            line.problem = "'" + word + " " + words[i] + "' is not understood; see ofx-check --help";
         }
     }
-    if (line.problem.empty() && line.bundles.size() != 1) line.problem = "one bundle is needed; see --help";
+    if (line.problem.empty() && line.bundles.size() != 1)
+        line.problem = "one bundle is needed; see ofx-check --help";
     return line;
 }
 
@@ -182,7 +183,8 @@ int list(const std::string& what) {
 }  // namespace
 
 int main(int count, char** words) {
-    const std::string first = count > 1 ? words[1] : "--help";
+    std::string first = count > 1 ? words[1] : "--help";
+    if (first == "render" && count == 3 && std::string(words[2]) == "--help") first = "--help";
     if (first == "--help" || first == "-h" || first == "--rules" || first == "--checks") return list(first);
     const bool renders = first == "render";
     CommandLine line = parsed(std::span(words, std::size_t(count)).subspan(renders ? 2 : 1));
