@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <utility>
 
 namespace petzval::sequence {
@@ -197,22 +196,30 @@ Status FrameMaker::open_wide() {
     return Done{};
 }
 
-// A wrong unit of depth or focus puts the focus far from every surface.
-void FrameMaker::warn_if_nothing_is_sharp(const Camera& camera) {
+// A wrong unit of depth or focus makes discs larger than the picture, which take minutes, or puts the focus
+// far from every surface.
+void FrameMaker::warn_of_wrong_units(const Camera& camera) {
     const DepthReport& depth = shot_.depth_report;
-    const double focus = camera.focus_distance_m, near = depth.nearest_m, far = depth.farthest_finite_m;
-    if (!(near > 0) || (focus >= near && focus <= far)) return;
     const auto coc = CircleOfConfusion::make(camera, shot_.place.display_window.width(), look().coc);
-    const auto is_sharp = [&](double depth_m) {
-        return std::abs(coc->radius_px(depth_m)) <= settings_.permissible_radius_px;
-    };
-    const bool has_sky = depth.misses > 0;
-    if (!coc || is_sharp(near) || is_sharp(far) ||
-        (has_sky && is_sharp(std::numeric_limits<double>::infinity())))
-        return;
-    warn({"no surface is in focus: the focus is at " + plain(focus, 3) + " m, and surfaces are " +
-          plain(near, 3) + " m to " + plain(far, 3) +
-          " m away; look at camera.focus_distance_m and at the unit of depth, depth.unit_scale_m"});
+    if (!coc || !(depth.nearest_m > 0)) return;
+    const double focus = camera.focus_distance_m, near = depth.nearest_m, far = depth.farthest_finite_m;
+    std::vector<double> radii{std::abs(coc->radius_px(near)), std::abs(coc->radius_px(far))};
+    if (depth.misses > 0) radii.push_back(std::abs(coc->radius_at_infinity_px()));
+    const auto [least, largest] = std::minmax_element(radii.begin(), radii.end());
+    if (warn_of_radius(*largest)) return;
+    if ((focus < near || focus > far) && *least > settings_.permissible_radius_px)
+        warn({"no surface is in focus: the focus is at " + plain(focus, 3) + " m, and surfaces are " +
+              plain(near, 3) + " m to " + plain(far, 3) +
+              " m away; look at camera.focus_distance_m and at the unit of depth, depth.unit_scale_m"});
+}
+
+bool FrameMaker::warn_of_radius(double radius_px) {
+    const Rect& display = shot_.place.display_window;
+    if (has_large_radius_ || !(radius_px > std::max(display.width(), display.height()))) return false;
+    has_large_radius_ = true;
+    warn({"a radius of " + plain(radius_px, 4) +
+          " px is larger than the picture: look at the focal length, the focus and the unit of depth"});
+    return true;
 }
 
 Status FrameMaker::choose_camera() {
@@ -232,7 +239,7 @@ Status FrameMaker::choose_camera() {
                          (host_.camera_example ? host_.camera_example(shot_.camera) : "")};
     note(camera_line(shot_.camera, shot_.image_scale));
     record_["camera"] = Json::parse(record_of_camera(shot_.camera, shot_.image_scale));
-    warn_if_nothing_is_sharp(*camera);
+    warn_of_wrong_units(*camera);
     const auto limits =
         focus_limits(*camera, shot_.place.display_window.width(), settings_.permissible_radius_px);
     if (limits)

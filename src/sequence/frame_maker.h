@@ -64,7 +64,8 @@ private:
     void take_behind(SeenElsewhere seen);
     Status choose_camera();
     Status open_wide();
-    void warn_if_nothing_is_sharp(const Camera& camera);
+    void warn_of_wrong_units(const Camera& camera);
+    bool warn_of_radius(double radius_px);
     Status grow();
     Result<Rect> wanted_window();
     Status grow_to(const Rect& window);
@@ -118,6 +119,7 @@ private:
     Stopwatch total_;
     Json record_ = Json::parse(empty_record("defocus"));
     Shot shot_;
+    bool has_large_radius_ = false;                    // and was warned of it
     std::size_t warnings_told_ = 0;                    // of the shot
     std::optional<Lens> lens_;                         // once read
     ViewSource view_;                                  // what compute() made and write() needs

@@ -213,10 +213,7 @@ void FrameMaker::report_frame(const DefocusReport& done, double seconds) {
     note(done.engine + " on " + done.device + ", " + done.lens + ": blur radius " +
          radius(-done.smallest_radius_px) + " (foreground), " + radius(done.largest_radius_px) +
          " (background), " + plain(seconds, 3) + " s");
-    if (const double largest = std::max(done.largest_radius_px, -done.smallest_radius_px);
-        largest > std::max(shot_.place.display_window.width(), shot_.place.display_window.height()))
-        warn({"a radius of " + plain(largest, 4) +
-              " px is larger than the picture: look at the focal length, the focus and the unit of depth"});
+    warn_of_radius(std::max(done.largest_radius_px, -done.smallest_radius_px));  // radii in the file, too
 }
 
 Status FrameMaker::render(const Rendered& lent) {

@@ -115,7 +115,7 @@ class DepthMeaning(CommandLineTest):
 
     def test_a_focus_where_no_surface_is_is_spoken_of(self):
         write_exr(self.path("z.exr"), picture(WIDTH, HEIGHT, 0.5, lambda x, y: 2 + x / 10), attributes=CAMERA)
-        for flags in (["--focus", "200"], ["--focus", "20cm"], ["--focus", "3", "--unit-scale", "1cm"]):
+        for flags in (["--focus", "200"], ["--focus", "80cm"], ["--focus", "3", "--unit-scale", "10m"]):
             error = self.succeed("defocus", "z.exr", "-o", "out.exr", "--focal-length", "300", *flags).err
             self.assertIn("no surface is in focus", error, flags)
         for flags in (["--focus", "3"], ["--focus", "1.9999"], ["--focus", "200", "--near-scale", "0"]):

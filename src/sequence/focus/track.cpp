@@ -234,7 +234,8 @@ private:
                 std::vector<std::string> ours;
                 for (const Known& camera : kCamera) ours.emplace_back(camera.name);
                 const std::string near = did_you_mean(name, ours);
-                return wrong(near.empty() ? taken.error().message : "unknown column " + name + near, where);
+                if (near.empty()) return wrong(taken.error().message, where);
+                return wrong(std::string("unknown column ").append(name).append(near), where);
             }
             column(name).keys[*frame] = value;
         }
