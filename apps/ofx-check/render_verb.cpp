@@ -60,6 +60,15 @@ std::string context_of(const std::string& word) {
     return word == "filter" ? ofx::kContextFilter : word;
 }
 
+// Empty if the plug-in has each clip that has a file.
+std::string missing_clip(const ofx::Effect& effect, const RenderJob& job) {
+    std::string known;
+    for (const auto& clip : effect.clips) known += (known.empty() ? "" : ", ") + clip->name;
+    for (const auto& [name, file] : job.clips)
+        if (!effect.find(name)) return "the plug-in has no clip " + name + "; it has " + known;
+    return "";
+}
+
 std::string no_parameter(const std::string& name, const std::string& value) {
     return "the plug-in has no parameter " + name + " that takes '" + value + "'";
 }
@@ -110,6 +119,7 @@ std::string render_picture(const Setup& setup, const RenderJob& job) {
     if (!stage.begin()) return stage.problem();
     auto effect = stage.create(cast);
     if (!effect) return stage.problem();
+    if (std::string missing = missing_clip(*effect, job); !missing.empty()) return missing;
     if (job.is_unpremultiplied) unpremultiply(*effect, job);
     FrameRequest request;
     request.time = job.time;

@@ -64,10 +64,24 @@ struct Stored {
     bool is_share = false;  // of whole numbers
 };
 
+std::string size_text(const ofx::RectI& r) {
+    return std::to_string(r.x2 - r.x1) + " x " + std::to_string(r.y2 - r.y1);
+}
+
+// True for the same frame at another scale. Hosts crop and place pictures, but scale them only if told to.
+bool is_scaled(const ofx::RectI& a, const ofx::RectI& b) {
+    const double width = a.x2 - a.x1, height = a.y2 - a.y1;
+    const double x = width / (b.x2 - b.x1), y = height / (b.y2 - b.y1);
+    return a.x1 == b.x1 && a.y1 == b.y1 && (x > 1.1 || x < 0.9) && std::abs(x - y) < 0.01 * y;
+}
+
 Result<Stored> of_clip(const DepthQuestion& q, const char* clip) {
     const LentImage depth(q.effect, clip, q.time);
     if (!depth.is_there()) return refused(std::string("the clip ") + clip + " has no image at this frame");
     if (!depth.is_readable()) return refused(std::string("the clip ") + clip + " must have float pixels");
+    if (is_scaled(depth.region(), q.source->region()))
+        return refused(std::string("the clip ") + clip + " is " + size_text(depth.region()) +
+                       " pixels, and Source is " + size_text(q.source->region()) + "; scale it to that size");
     const int channel = is_in_alpha(depth) ? 3 : 0;
     return Stored{plane_like(*q.source, [&](int x, int y) { return depth.value(x, y, channel, kMiss); })};
 }

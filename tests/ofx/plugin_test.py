@@ -238,6 +238,7 @@ class Plugin(unittest.TestCase):
     def test_each_error_is_one_sentence_in_the_hosts_message(self):
         self.write_shares()
         pictures.write_exr(f"{self.folder}/no-depth.exr", {c: pictures.plane(4, 4, 1) for c in "AB"})
+        pictures.write_exr(f"{self.folder}/half.exr", {c: pictures.plane(80, 45, 1) for c in "RGBZ"})
         for params, clips, says in (
                 ({}, self.CLIPS[:2], "no depth"),
                 ({"depthFrom": "file", "depthFile": "none.exr"}, self.CLIPS, "none.exr"),
@@ -252,6 +253,8 @@ class Plugin(unittest.TestCase):
                 ({"look": "https://x.org/#lens=1.!!"}, self.CLIPS, "link"),
                 ({"depthKind": "device"}, self.CLIPS, "range"),
                 ({"focusFrom": "point", "focusPoint": "999,0"}, self.CLIPS, "focus point"),
+                ({}, (*self.CLIPS[:2], "--clip", "Depth=half.exr:Z"), "the clip Depth is 80 x 45 pixels, and Source is 160 x 90"),
+                ({}, (*self.CLIPS, "--clip", "Dept=night.exr:Z"), "the plug-in has no clip Dept; it has Source, "),
                 ({}, (*self.CLIPS, "--clip", "Plate=sharp.exr"), "PlateDepth")):
             done = self.render("none.exr", params, *clips, code=2)
             self.assertIn(says, done.stderr)
