@@ -2,7 +2,6 @@
 #include "checks.h"
 #include "rules.h"
 
-#include <array>
 #include <atomic>
 #include <string>
 #include <thread>
@@ -45,9 +44,10 @@ void check_loads(const Setup& setup) {
     if (!scene) return;
     effect_lies.at_once = true;
     std::atomic<bool> is_over = false;
-    std::array<Rendered, 3> rendered;
-    std::thread other([&] {
-        for (Rendered& r : rendered) r = scene.stage.render(*scene.effect);
+    std::atomic<int> loads = 0;
+    std::vector<Rendered> rendered;
+    std::thread other([&] {  // on a busy machine, three frames may be rendered before the first load
+        while (rendered.size() < 3 || loads < 3) rendered.push_back(scene.stage.render(*scene.effect));
         is_over = true;
     });
     while (!is_over) {
@@ -55,6 +55,7 @@ void check_loads(const Setup& setup) {
         again.properties.with(ofx::kType, std::vector<std::string>{ofx::kTypeEffect});
         scene.stage.call(ofx::action::kLoad, nullptr, nullptr, nullptr);
         scene.stage.call(ofx::action::kDescribe, &again, nullptr, nullptr);
+        ++loads;
     }
     other.join();
     for (const Rendered& r : rendered)
