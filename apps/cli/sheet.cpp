@@ -85,7 +85,9 @@ void check(SheetFlags& flags, const Verb& verb) {
             throw UsageError("--lenses shows one picture: give one frame of " + flags.input.path);
         return;
     }
-    require_frames(is_sequence(flags.frames, {flags.input.path}, "", flags.run));
+    if (!is_sequence(flags.frames, {flags.input.path}, "", flags.run))
+        throw UsageError(
+            "the input must be the frames of a shot, such as beauty.####.exr, or one picture with --lenses");
 }
 
 }  // namespace

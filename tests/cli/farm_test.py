@@ -263,6 +263,7 @@ class Farm(CommandLineTest):
         job = ["farm", "write", "--for", "list", "-o", "job"]
         self.refuse(2, *job[:4], "--", *self.shot("out.####.exr"), says=["-o FOLDER"])
         self.refuse(2, *job, says=["after --"])
+        self.refuse(2, *job, "in.####.exr", says=["the output frames after --, as -o OUT"])
         self.refuse(2, *job, "--", "in.0001.exr", "-o", "out.exr", *CAMERA, says=["####"])
         self.refuse(2, *job, "--", *self.shot("out.####.exr"), "--fstops", "2", says=["--fstops"])
         self.refuse(2, *job, "--", *self.shot("out.####.exr"), "--report", "r", says=["--report"])

@@ -36,6 +36,7 @@ class LensSheet(CommandLineTest):
 
     def test_what_cannot_be_is_refused(self):
         self.refuse(2, "sheet", "in.exr", "-o", "s.png", "--lenses", "doublet,nope", says=["nope"])
+        self.refuse(2, "sheet", "in.exr", "-o", "s.png", says=["beauty.####.exr, or one picture with --lenses"])
         self.refuse(2, "sheet", "in.exr", "-o", "s.mp4", "--lenses", "doublet", says=["--lenses"])
         self.refuse(2, "sheet", "in.####.exr", "-o", "s.png", "--lenses", "doublet", says=["--lenses"])
         self.refuse(2, "sheet", "in.####.exr", "-o", "s.png", "--fstop", "4", says=["--fstop", "--lenses"])

@@ -47,6 +47,7 @@ void check(WriteFlags& flags, const Verb& verb) {
         "defocus", [&](Verb& defocus) { flags.shot.add_to(defocus); }, flags.words);
     DefocusFlags& shot = flags.shot;
     require_argument(verb, shot.input.path, "an input picture after --");
+    require_argument(verb, shot.output, "the output frames after --, as -o OUT");
     shot.check(verb);
     if (!shot.is_shot)
         throw UsageError("a farm renders frames: neither the input nor -o contains #### or %04d");
