@@ -65,7 +65,7 @@ std::string missing_clip(const ofx::Effect& effect, const RenderJob& job) {
     std::string known;
     for (const auto& clip : effect.clips) known += (known.empty() ? "" : ", ") + clip->name;
     for (const auto& [name, file] : job.clips)
-        if (!effect.find(name)) return "the plug-in has no clip " + name + "; it has " + known;
+        if (!effect.find(name)) return "the plug-in has no clip " + (name + "; it has ").append(known);
     return "";
 }
 
