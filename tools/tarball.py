@@ -72,10 +72,8 @@ def install(build, prefix):
     for header in headers.rglob("*"):
         if header.is_file() and not header.name.endswith("_c.h"):
             header.unlink()
-    for folder in ("farm", "shots"):
-        shutil.rmtree(headers / folder, ignore_errors=True)
     shutil.move(prefix / "lib/OFX", prefix / "OFX")
-    for empty in sorted(prefix.glob("lib/**/"), reverse=True):
+    for empty in sorted(prefix.glob("**/"), reverse=True):
         if not any(empty.iterdir()):
             empty.rmdir()
 
