@@ -50,14 +50,35 @@ private:
         if (!any) return;
         if (size == 1) {
             const CocSample& s = *at(x0, y0);
-            if (s.colour.a > 0) out_.push_back({float(x0), float(y0), 1, s.coc_px, s.colour.a});
+            if (s.colour.a > 0)
+                out_.push_back({float(x0), float(y0), 1, s.coc_px, s.colour.a, slope(x0, y0, 1, 0),
+                                slope(x0, y0, 0, 1)});
         } else if (whole && laws::same_surface(laws::kOneSquare, low, high)) {
             const float middle = 0.5f * float(size - 1);
-            out_.push_back({float(x0) + middle, float(y0) + middle, float(size), 0.5f * (low + high), 1});
+            const int last = size - 1, x1 = x0 + last, y1 = y0 + last;
+            const auto coc = [&](int x, int y) { return at(x, y)->coc_px; };
+            const float falling = (coc(x1, y1) - coc(x0, y0)) / float(2 * last),
+                        rising = (coc(x1, y0) - coc(x0, y1)) / float(2 * last);
+            out_.push_back({float(x0) + middle, float(y0) + middle, float(size), 0.5f * (low + high), 1,
+                            falling + rising, falling - rising});
         } else {
             for (const int dy : {0, size / 2})
                 for (const int dx : {0, size / 2}) add_square(x0 + dx, y0 + dy, size / 2);
         }
+    }
+
+    // Change of radius in a direction, from the neighbour in the block that lies on the pixel's surface. 0:
+    // neither does.
+    float slope(int x, int y, int dx, int dy) const {
+        const float own = at(x, y)->coc_px;
+        float least = laws::kConnected.step_px;
+        for (const int side : {-1, 1}) {
+            const int u = x + side * dx, v = y + side * dy;
+            if (!block_.contains(u, v)) continue;
+            const CocSample* s = at(u, v);
+            if (s && std::abs(s->coc_px - own) < std::abs(least)) least = float(side) * (s->coc_px - own);
+        }
+        return std::abs(least) < laws::kConnected.step_px ? least : 0;
     }
 
     CocSamplesView samples_;
@@ -98,7 +119,10 @@ void coarsen(std::span<const Caster> fine, int size, std::vector<Caster>& out) {
         if (end > begin && c.size == float(size) && last.size == c.size && last.x == c.x && last.y == c.y &&
             octave(nearest) == octave(c.coc_px) && c.coc_px - nearest <= -kSameShare * nearest) {
             const float sum = last.coverage + c.coverage;
-            last.coc_px += (c.coc_px - last.coc_px) * c.coverage / sum;
+            const float part = c.coverage / sum;
+            last.coc_px += (c.coc_px - last.coc_px) * part;
+            last.right_px += (c.right_px - last.right_px) * part;
+            last.down_px += (c.down_px - last.down_px) * part;
             last.coverage = std::min(1.0f, sum);
         } else {
             out[end++] = c, nearest = c.coc_px;

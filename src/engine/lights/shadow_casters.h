@@ -17,8 +17,9 @@ namespace petzval::engine {
 struct Caster {
     float x = 0, y = 0;  // its middle, in pixels; the middle of pixel 0 is 0
     float size = 1;      // pixels on a side
-    float coc_px = 0;
+    float coc_px = 0;    // in its middle
     float coverage = 1;
+    float right_px = 0, down_px = 0;  // change of radius to the next pixel
 };
 
 // The samples of a picture by blocks of pixels. Opaque samples of nearly one radius are merged into squares

@@ -6,7 +6,7 @@
 namespace petzval::engine {
 namespace {
 
-// A bright light finds every crack between the squares of a sloping surface.
+// A bright light finds every crack that is left between the squares of a surface which bends.
 constexpr float kOverlapPx = 0.02f;
 constexpr int kLeastCells = 16;  // along a side of a disc's square
 
@@ -71,25 +71,28 @@ private:
         // further that plane is from focus.
         const float blur =
             float(view_.size - 1) * std::abs(caster.coc_px) / std::max(1.0f, std::abs(view_.coc_px));
-        const Side across = seen(caster.x, caster.size, view_.x, per_px, plan_.picture.x0, plan_.picture.x1,
-                                 plan_.open_edges.left, plan_.open_edges.right);
-        const Side down = seen(caster.y, caster.size, view_.y, per_px, plan_.picture.y0, plan_.picture.y1,
-                               plan_.open_edges.top, plan_.open_edges.bottom);
+        const Side across = seen(caster.x, caster.size, view_.x, apart, caster.right_px, plan_.picture.x0,
+                                 plan_.picture.x1, plan_.open_edges.left, plan_.open_edges.right);
+        const Side down = seen(caster.y, caster.size, view_.y, apart, caster.down_px, plan_.picture.y0,
+                               plan_.picture.y1, plan_.open_edges.top, plan_.open_edges.bottom);
         const float end = pupil_end_ + 0.5f * blur * per_px;
         if (across.begin >= end || across.end <= -end || down.begin >= end || down.end <= -end) return;
         seen_.push_back({across.middle(), down.middle(), across.end - across.begin, down.end - down.begin,
                          blur * per_px, caster.coverage});
     }
 
-    // A square along one axis of the pupil. One that touches an open edge of the picture continues beyond it.
+    // A square along one axis of the pupil. Each end has its own radius, so that the squares of a sloping
+    // surface meet. One that touches an open edge of the picture continues beyond it.
     struct Side {
         float begin, end;
         float middle() const { return 0.5f * (begin + end); }
     };
-    Side seen(float at, float size, float from, float per_px, int first, int last, bool opens_before,
-              bool opens_after) const {
+    Side seen(float at, float size, float from, float apart, float slope, int first, int last,
+              bool opens_before, bool opens_after) const {
         const float half = 0.5f * (size + kOverlapPx), beyond = 2 * pupil_end_;
-        Side side{(at - half - from) * per_px, (at + half - from) * per_px};
+        const float change = std::clamp(half * slope, -0.5f * apart, 0.5f * apart);
+        Side side{(at - half - from) / (apart + change), (at + half - from) / (apart - change)};
+        side.end = std::max(side.begin, side.end);  // a surface seen from its back
         if (opens_before && at - 0.5f * size < float(first)) side.begin = std::min(side.begin, -beyond);
         if (opens_after && at + 0.5f * size > float(last) - 1) side.end = std::max(side.end, beyond);
         return side;

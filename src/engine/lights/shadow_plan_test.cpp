@@ -65,5 +65,42 @@ TEST(ShadowPlan, BeyondAClosedEdgeNothingIsInTheWay) {
     EXPECT_NEAR(post.covered_from(31.5f, 0), 0.5 * 16.0 / 44, 0.02);
 }
 
+// The part of a line across the pupil that a surface leaves open which fills the picture. Its radius changes
+// by slope_px from row to row, and the slope itself by bend_px.
+double open_behind(float slope_px, float bend_px) {
+    constexpr float kOccluderPx = -12, kBehindPx = 8;
+    constexpr int kMiddle = kSide / 2;
+    CocSamples all;
+    all.width = kSide;
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x) {
+            all.first.push_back(all.samples.size());
+            const float row = float(y - kMiddle),
+                        coc_px = kOccluderPx + (slope_px + 0.5f * bend_px * row) * row;
+            all.samples.push_back({{0, 0, 0, 1}, coc_px, coc_px});
+        }
+    all.first.push_back(all.samples.size());
+    const ShadowCasters casters(all, one_thread());
+    LightsPlan plan;
+    plan.casters = &casters, plan.picture = {0, 0, kSide, kSide};
+    constexpr int kPoints = 4001;
+    int open = 0;
+    const std::vector<SeenCaster> seen = seen_casters(plan, {31.5f, 31.5f, kBehindPx, 1, 0.02f});
+    for (int i = 0; i < kPoints; ++i) {
+        const float at = -1 + 2 * float(i) / (kPoints - 1);
+        open += std::none_of(seen.begin(), seen.end(), [&](const SeenCaster& c) {
+            return std::abs(c.u - 0.1f) <= 0.5f * c.wide && std::abs(c.v - at) <= 0.5f * c.tall;
+        });
+    }
+    return double(open) / kPoints;
+}
+
+TEST(ShadowPlan, ASlopingSurfaceHasNoCracks) {
+    for (const float slope_px : {0.03f, -0.06f, 0.15f, -0.3f}) {
+        EXPECT_EQ(open_behind(slope_px, 0), 0) << slope_px;
+        EXPECT_LT(open_behind(slope_px, 0.01f), 1e-3) << slope_px;
+    }
+}
+
 }  // namespace
 }  // namespace petzval::engine
