@@ -30,15 +30,12 @@ HiddenTextures::HiddenTextures(const KnownSurfaces& known, const Mixtures& mixtu
                 std::abs(m.far_coc_px) >= completion_model.texture_sharp_px)
                 return;
             tile = int(tiles_.size());
-            tiles_.push_back({x / kTile * kTile, y / kTile * kTile, {}});
+            tiles_.push_back({x / kTile * kTile, y / kTile * kTile, 0, {}});
         });
     if (tiles_.empty()) return;
     measure_means(workers);
     measure_details(workers);
-    parallel_for(int(tiles_.size()), workers, [&](int i) {
-        Tile& tile = tiles_[std::size_t(i)];
-        tile.texture = texture_around(tile);
-    });
+    parallel_for(int(tiles_.size()), workers, [&](int i) { find_repeats(tiles_[std::size_t(i)]); });
     details_ = {};
 }
 
@@ -116,9 +113,53 @@ Texture HiddenTextures::texture_around(const Tile& tile) const {
     for (int v = inside.y0; v < inside.y1; ++v)
         for (int u = inside.x0; u < inside.x1; ++u)
             if (details_(u, v) != kUnknown) piece.set(u - u0, v - v0, details_(u, v));
-    Texture texture = texture_of(piece);
-    for (Texture::Offset& o : texture.repeats) o.x *= kScale, o.y *= kScale;
-    return texture;
+    return texture_of(piece);
+}
+
+// Correlation of a repeat within 20 px of a block, -1…1; 1 where hardly anything is known.
+float HiddenTextures::alike_around(const Rect& block, int dx, int dy) const {
+    constexpr int kAround = 10;  // pixels of details
+    constexpr float kLeastPairs = 16;
+    const Rect all = details_.rect(), moved{all.x0 - dx, all.y0 - dy, all.x1 - dx, all.y1 - dy};
+    const Rect window = block.grown(kAround).intersected(all).intersected(moved);
+    Pairs pairs;
+    for (int v = window.y0; v < window.y1; ++v)
+        for (int u = window.x0; u < window.x1; ++u) {
+            const float a = details_(u, v), b = details_(u + dx, v + dy);
+            if (a == kUnknown || b == kUnknown) continue;
+            pairs.products += a * b;
+            pairs.squares += a * a + b * b;
+            pairs.count += 1;
+        }
+    return pairs.count < kLeastPairs ? 1 : pairs.alike();
+}
+
+// The repeats of a tile are those of its strongest texture. Beside that texture they would move any mark
+// behind the occluder, so each block keeps those that hold around itself.
+void HiddenTextures::find_repeats(Tile& tile) const {
+    constexpr int kSide = kBlock / kScale;
+    constexpr float kOff = 0.1f;  // a few pixels of a texture correlate less than all of it by as much
+    const Texture texture = texture_around(tile);
+    tile.grain = texture.grain;
+    for (int i = 0; i < kTileBlocks; ++i) {
+        auto& repeats = tile.repeats[std::size_t(i)];
+        const int u = tile.x / kScale + i % kBlocks * kSide, v = tile.y / kScale + i / kBlocks * kSide;
+        for (Texture::Offset o : texture.repeats) {
+            if (o.alike <= completion_model.texture_least) break;
+            const int dx = nearest_pixel(o.x), dy = nearest_pixel(o.y);
+            o.alike = std::min(o.alike, alike_around({u, v, u + kSide, v + kSide}, dx, dy) + kOff);
+            o.x *= kScale, o.y *= kScale;
+            if (o.alike > completion_model.texture_least) repeats.push_back(o);
+        }
+        std::stable_sort(repeats.begin(), repeats.end(),
+                         [](const auto& a, const auto& b) { return a.alike > b.alike; });
+    }
+}
+
+// The number of the pixel's block among those of all tiles; -1: its tile has no silhouette.
+int HiddenTextures::block_at(int x, int y) const {
+    const int tile = tile_at_(x / kTile, y / kTile);
+    return tile < 0 ? -1 : (tile * kBlocks + y % kTile / kBlock) * kBlocks + x % kTile / kBlock;
 }
 
 void HiddenTextures::move_grain(int x, int y, Moved& moved) const {
@@ -128,19 +169,18 @@ void HiddenTextures::move_grain(int x, int y, Moved& moved) const {
         for (const auto& way : kWays) {
             const int u = x + far * way[0], v = y + far * way[1];
             if (!shows(u, v, moved.coc_px)) continue;
-            moved.grain = tiles_[std::size_t(moved.tile)].texture.grain;
+            moved.grain = tile_of(moved.block).grain;
             moved.grain_detail = detail_of_pixel(u, v);
             return;
         }
 }
 
-HiddenTextures::Moved HiddenTextures::moved_to(int x, int y, int tile, float coc_px) const {
-    const Texture& texture = tiles_[std::size_t(tile)].texture;
+HiddenTextures::Moved HiddenTextures::moved_to(int x, int y, int block, float coc_px) const {
+    const Tile& tile = tile_of(block);
     Moved moved;
-    moved.tile = tile, moved.coc_px = coc_px;
-    if (texture.grain > 0) move_grain(x, y, moved);
-    for (const Texture::Offset& o : texture.repeats) {
-        if (o.alike <= completion_model.texture_least) break;
+    moved.block = block, moved.coc_px = coc_px;
+    if (tile.grain > 0) move_grain(x, y, moved);
+    for (const Texture::Offset& o : tile.repeats[std::size_t(block % kTileBlocks)]) {
         const int dx = nearest_pixel(o.x), dy = nearest_pixel(o.y);
         if (!shows(x + dx, y + dy, coc_px)) continue;
         moved.alike = o.alike, moved.dx = dx, moved.dy = dy;
@@ -150,10 +190,10 @@ HiddenTextures::Moved HiddenTextures::moved_to(int x, int y, int tile, float coc
     return moved;
 }
 
-const HiddenTextures::Moved& HiddenTextures::Point::moved_to_here(int tile, float coc_px) {
-    Moved& moved = found_[std::size_t(tile) % found_.size()];
-    if (moved.tile != tile || std::abs(moved.coc_px - coc_px) > completion_model.step_px / 2)
-        moved = textures_.moved_to(x_, y_, tile, coc_px);
+const HiddenTextures::Moved& HiddenTextures::Point::moved_to_here(int block, float coc_px) {
+    Moved& moved = found_[std::size_t(block) % found_.size()];
+    if (moved.block != block || std::abs(moved.coc_px - coc_px) > completion_model.step_px / 2)
+        moved = textures_.moved_to(x_, y_, block, coc_px);
     return moved;
 }
 
@@ -162,9 +202,9 @@ HiddenTextures::Point::Told HiddenTextures::Point::going_on(KnownSurfaces::Place
     const float in_focus = std::clamp(completion_model.texture_sharp_px - std::abs(shown.coc_px), 0.0f, 1.0f);
     const HiddenTextures& all = textures_;
     if (all.tiles_.empty() || in_focus <= 0) return {};
-    const int tile = all.tile_at_(shown.x / kTile, shown.y / kTile);
-    if (tile < 0) return {};
-    const Moved& moved = moved_to_here(tile, shown.coc_px);
+    const int block = all.block_at(shown.x, shown.y);
+    if (block < 0) return {};
+    const Moved& moved = moved_to_here(block, shown.coc_px);
     if (moved.grain <= 0 && moved.alike <= 0) return {};
     const Rgba around = all.mean(shown.x, shown.y);
     const float grain = in_focus * moved.grain;

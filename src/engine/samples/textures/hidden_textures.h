@@ -1,8 +1,8 @@
 // Textures of surfaces in focus continue behind their occluders as textures.
 //
-// Around each silhouette, repetitions of the picture are found (repeats.h). The hidden part is then the
-// visible part an offset away, as far as their surroundings are alike. Grain, where no place predicts
-// another, continues as any other piece of itself.
+// Around each silhouette, repetitions of the picture are found (repeats.h), and of these the ones that hold
+// around each block of pixels. The hidden part is then the visible part an offset away, as far as their
+// surroundings are alike. Grain, where no place predicts another, continues as any other piece of itself.
 #pragma once
 
 #include "engine/samples/behind/known_surfaces.h"
@@ -17,7 +17,7 @@ namespace petzval::engine {
 class HiddenTextures {
     // Pieces of a surface's texture that are moved to a hidden point, less the means around where they show.
     struct Moved {
-        int tile = -1;
+        int block = -1;
         float coc_px = 0;
         float grain = 0, alike = 0;  // 0: none
         Rgba grain_detail, detail;
@@ -41,16 +41,18 @@ public:
         Told going_on(KnownSurfaces::Place shown);
 
     private:
-        const Moved& moved_to_here(int tile, float coc_px);
+        const Moved& moved_to_here(int block, float coc_px);
 
         const HiddenTextures& textures_;
         int x_, y_;
-        std::array<Moved, 4> found_;  // one entry for all tiles with the same last digits
+        std::array<Moved, 4> found_;  // one entry for all blocks with the same last digits
     };
 
 private:
     static constexpr int kTile = 32;  // side of a tile in pixels; its silhouettes share a texture
     static constexpr int kBlock = 8;  // side of a block in pixels; it has one mean
+    static constexpr int kBlocks = kTile / kBlock;  // on each side of a tile
+    static constexpr int kTileBlocks = kBlocks * kBlocks;
 
     // The sum of the sharp pixels of a block, or of some blocks.
     struct Sum {
@@ -62,12 +64,17 @@ private:
     };
     struct Tile {
         int x, y;  // its first pixel
-        Texture texture;
+        float grain;
+        std::array<std::vector<Texture::Offset>, kTileBlocks> repeats;  // of each block; best first
     };
 
     void measure_means(Workers& workers);
     void measure_details(Workers& workers);
     Texture texture_around(const Tile& tile) const;
+    void find_repeats(Tile& tile) const;
+    float alike_around(const Rect& block, int dx, int dy) const;
+    int block_at(int x, int y) const;
+    const Tile& tile_of(int block) const { return tiles_[std::size_t(block / kTileBlocks)]; }
     float detail(int x, int y) const;
     bool in_sight(const Rect& block) const;
     bool sharp(int x, int y) const {
@@ -80,7 +87,7 @@ private:
     Rgba detail_of_pixel(int x, int y) const { return known_.colour(x, y) - mean(x, y); }
     Rgba mean(float x, float y) const;
     Rgba mean(int x, int y) const { return mean(float(x), float(y)); }
-    Moved moved_to(int x, int y, int tile, float coc_px) const;
+    Moved moved_to(int x, int y, int block, float coc_px) const;
     void move_grain(int x, int y, Moved& moved) const;
 
     const KnownSurfaces& known_;

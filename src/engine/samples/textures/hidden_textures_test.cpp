@@ -65,6 +65,21 @@ TEST(HiddenTextures, WhatRepeatsGoesOnAsItIs) {
     }
 }
 
+TEST(HiddenTextures, RepeatsOfATextureMoveNoMarksBesideIt) {
+    const auto marked = [](int x, int y) {
+        if (y >= 48) return bricks(x, y);
+        return y / 6 % 2 == 0 && x % 64 < 4 ? 0.1f : 0.5f;
+    };
+    const HiddenLayers hidden = filled(marked, 0, true);
+    double error = 0;
+    for (int y = 16; y < 32; ++y)
+        for (int x = kLeft + 1; x < kRight - 1; ++x) {
+            ASSERT_FALSE(hidden.at(x, y).empty());
+            error = std::max(error, std::abs(double(hidden.at(x, y).front().colour.g) - 0.5));
+        }
+    EXPECT_LT(error, 0.1);  // 0.19 if the bricks' repeats hold everywhere
+}
+
 TEST(HiddenTextures, ShadingGoesOnToo) {
     const auto shaded = [](int x, int y) { return bricks(x, y) * (1 + 0.004f * float(x)); };
     const Errors e = errors(shaded);
