@@ -1,6 +1,7 @@
 // Pictures of a scene, by its name.
 #include "petzval/scene.h"
 
+#include "base/nearest_word.h"
 #include "base/parallel.h"
 #include "scene/built_in/scenes.h"
 #include "scene/gltf/gltf.h"
@@ -13,6 +14,7 @@
 #include <sstream>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace petzval {
 namespace scene {
@@ -73,10 +75,13 @@ std::optional<BuiltInScene> find(const std::string& name, std::uint64_t seed) {
 }
 
 Error unknown(const std::string& name) {
-    std::string text = "there is no scene " + name + "; there are ";
+    std::vector<std::string> known;
+    for (const BuiltInScene& scene : built_in_scenes()) known.push_back(scene.summary.name);
+    const std::string near = nearest_word(name, known);
+    std::string text = "there is no scene " + name;
+    text += (near.empty() ? "" : " (did you mean " + near + "?)") + "; there are ";
     const char* separator = "";
-    for (const BuiltInScene& scene : built_in_scenes())
-        text += separator + scene.summary.name, separator = ", ";
+    for (const std::string& scene : known) text += separator + scene, separator = ", ";
     return {ErrorCode::InvalidArgument, text};
 }
 

@@ -107,6 +107,7 @@ class Usage(CommandLineTest):
         self.refuse(2, "defcus", says=["defcus", "did you mean defocus"])
         self.refuse(2, "scene", says=["list", "make"])
         self.refuse(2, "scene", "mke", says=["did you mean make"])
+        self.refuse(2, "scene", "make", "tables", "-o", "t.exr", says=["no scene tables (did you mean table?); there are night, "])
 
     def test_what_must_be_given(self):
         self.refuse(2, "defocus", says=["needs", "for example: petzval defocus"])
