@@ -1,6 +1,8 @@
 // Discs of a lens as tiles of one texture.
 #include "petzval/lens_kernel.h"
 
+#include "kernel/lenses/opened_lens.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -140,6 +142,11 @@ std::size_t lens_atlas_bytes(const LensAtlasSettings& settings) {
 
 Result<LensAtlas> lens_atlas(const Lens& lens, const LensMount& mount, const LensAtlasSettings& settings) {
     if (const Status fine = check(settings, lens.choice()); !fine) return fine.error();
+    const optics::Prescription* const prescription = kernel::prescription_of(lens);
+    if (settings.zones > 1 && prescription && !optics::is_round(*prescription))
+        return refused("lens.name",
+                       " has cylinders: its discs do not turn about the middle with the zones of "
+                       "an atlas; give atlas.zones 1");
     if (mount.pixel_aspect != 1) return refused("mount.pixel_aspect", " must be 1: tiles are squares");
     LensAtlas atlas = empty_atlas(settings);
     const auto go_on = [&](double done) { return !settings.progress || settings.progress(done); };

@@ -113,6 +113,9 @@ TEST(LensAtlas, OfRingsIsOfARoundPupilAndSquarePixels) {
     LensChoice choice;
     blades(choice);
     EXPECT_EQ(lens_atlas(Lens::open(choice).value(), mount()).error().field, "lens.blades");
+    choice = {};
+    choice.name = "schneider-anamorphic";
+    EXPECT_EQ(lens_atlas(Lens::open(choice).value(), mount()).error().field, "lens.name");
     LensMount wide = mount();
     wide.pixel_aspect = 2;
     EXPECT_EQ(lens_atlas(Lens::open({}).value(), wide).error().field, "mount.pixel_aspect");

@@ -34,10 +34,9 @@ bool is_inside(const std::vector<Point>& outline, Point p) {
 
 // The grid over the pupil: what passes and where it lands. Paths are still empty.
 std::vector<SectionRay> landed_rays(const kernel::GeometricLens& lens, double coc_px, FieldPosition field,
-                                    int across) {
+                                    const kernel::FieldAxis& axis, int across) {
     const auto outline = lens.pupil_outline(field, 0.01);
     const auto landing = lens.landing(kGreen_nm, coc_px, field);
-    const kernel::FieldAxis axis(field);
     std::vector<SectionRay> rays;
     for (int j = 0; j < across; ++j)
         for (int i = 0; i < across; ++i) {
@@ -65,9 +64,9 @@ public:
         return Tracer(std::move(*lens));
     }
 
-    Result<LensSection> section(std::vector<SectionRay> rays, double field_rad, double depth_mm,
+    Result<LensSection> section(std::vector<SectionRay> rays, const optics::ObjectPoint& object,
                                 double lead_mm, const kernel::FieldAxis& axis) const {
-        const auto beam = lens_.beam(lens_.prescription().primary_um, {field_rad, depth_mm});
+        const auto beam = lens_.beam(lens_.prescription().primary_um, object);
         if (!beam) return beam.error();
         LensSection section;
         section.has_surfaces = true;
@@ -198,17 +197,20 @@ Result<LensSection> lens_section(const Lens& lens, const LensMount& mount, doubl
     if (!of_rays) return refuse("lens.name: this lens has no rays");
 
     const FieldPosition field{field_x, field_y};
-    const kernel::FieldAxis axis(field);
+    const optics::Prescription* prescription = kernel::prescription_of(used);
+    // Cylinders are drawn as the planes that they are from below; so is light that comes from aside.
+    const bool upright = prescription && !optics::is_round(*prescription);
+    const kernel::FieldAxis axis = upright ? kernel::FieldAxis::upright(field) : kernel::FieldAxis(field);
+    const double turned = upright ? std::atan2(-std::abs(field_x), std::abs(field_y)) : 0;
     const double corner_mm = 0.5 * mount.camera.sensor_width_mm *
                              std::hypot(1.0, mount.height_px / (mount.width_px * mount.pixel_aspect));
     const double slope = axis.size * corner_mm / mount.camera.focal_length_mm;
     const double lead_mm = 0.5 * mount.camera.focal_length_mm;
-    auto rays = landed_rays(*of_rays, coc->radius_px(depth_m), field, rays_across);
-    const optics::Prescription* prescription = kernel::prescription_of(used);
+    auto rays = landed_rays(*of_rays, coc->radius_px(depth_m), field, axis, rays_across);
     if (!prescription) return thin_section(std::move(rays), mount, slope, 1000 * depth_m, lead_mm, axis);
     const auto tracer = Tracer::make(*prescription, mount.camera);
     if (!tracer) return tracer.error();
-    return tracer->section(std::move(rays), std::atan(slope), 1000 * depth_m, lead_mm, axis);
+    return tracer->section(std::move(rays), {std::atan(slope), 1000 * depth_m, turned}, lead_mm, axis);
 }
 
 }  // namespace petzval

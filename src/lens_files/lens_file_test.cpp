@@ -205,6 +205,21 @@ TEST(LensFile, JsonMayBringItsOwnGlassAndUnits) {
     EXPECT_TRUE(warns(file, "vignettes nothing"));
 }
 
+TEST(LensFile, ACylinderIsReadAndHasNoOtherRadius) {
+    const auto text = [](const std::string& radius) {
+        return R"({"units": "mm", "aperture": {"type": "F_NUMBER", "value": 8}, "surfaces": [
+        {"radius": )" +
+               radius + R"(, "cylinder_radius": -25, "thickness": 3, "medium": {"nd": 1.5, "Vd": 60}},
+        {"radius": -40, "thickness": 90, "medium": "air", "stop": true}]})";
+    };
+    const LensFile file = read(text("null"));
+    EXPECT_EQ(file.lens.surfaces[0].cylinder_per_mm, -1.0 / 25);
+    EXPECT_EQ(file.lens.surfaces[0].curvature_per_mm, 0);
+    EXPECT_EQ(file.lens.surfaces[1].cylinder_per_mm, 0);
+    EXPECT_NE(refusal(text("50")).find("surface 1: a cylinder has no radius"), std::string::npos)
+        << refusal(text("50"));
+}
+
 TEST(LensFile, ANearObjectIsReadWithItsHeight) {
     const std::string surfaces = R"("aperture": {"type": "EPD", "value": 4}, "surfaces": [
         {"radius": 50, "thickness": 2, "medium": {"nd": 1.5, "Vd": 60}}, {"radius": -50, "thickness": 90}])";

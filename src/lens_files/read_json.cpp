@@ -48,7 +48,7 @@ private:
     Check surface_member(const std::string& key, const Json& value, Surface& out, int index);
     Check stop(const Json& value, int index);
     Check surface_number(const std::string& key, const Json& value, Surface& out) const;
-    Check radius(const Json& value, Surface& out) const;
+    Check radius(const Json& value, double& per_mm) const;
     Check asphere(const std::string& key, const Json& value, Surface& out) const;
     Check medium(const Json& value, Surface& out);
     Check finish(const Json& root);
@@ -199,12 +199,12 @@ Status Reader::wavelengths(const Json& value) {
     return Done{};
 }
 
-Status Reader::radius(const Json& value, Surface& out) const {
+Status Reader::radius(const Json& value, double& per_mm) const {
     if (value.is(Json::Type::Null) || is_infinite_word(value)) return Done{};
     const auto size = number(value, "radius (null is a plane)");
     if (!size) return size.error();
     if (*size == 0) return at_line(value.line, "a radius of 0 is not a surface; null is a plane");
-    out.curvature_per_mm = 1 / (*size * mm_);
+    per_mm = 1 / (*size * mm_);
     return Done{};
 }
 
@@ -274,7 +274,8 @@ Status Reader::surface_number(const std::string& key, const Json& value, Surface
 }
 
 Status Reader::surface_member(const std::string& key, const Json& value, Surface& out, int index) {
-    if (key == "radius") return radius(value, out);
+    if (key == "radius") return radius(value, out.curvature_per_mm);
+    if (key == "cylinder_radius") return radius(value, out.cylinder_per_mm);
     if (key == "medium") return medium(value, out);
     if (key == "asphere_power" || key == "asphere_even") return asphere(key, value, out);
     if (key == "stop") return stop(value, index);

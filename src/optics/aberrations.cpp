@@ -22,6 +22,7 @@ struct LocalCurvature {
 };
 
 LocalCurvature local_curvature(const RefractingSurface& s, double r) {
+    if (s.cylinder_per_mm != 0) return {0, s.cylinder_per_mm};
     if (r == 0) return {s.vertex_curvature_per_mm(), s.vertex_curvature_per_mm()};
     const double slope = s.slope(r), stretch = std::sqrt(1 + slope * slope);
     return {s.second_derivative(r) / (stretch * stretch * stretch), slope / (r * stretch)};

@@ -25,15 +25,20 @@ struct Beam::Powers {
 
 // Directions and object for a field angle; the chief ray is not known yet.
 void Beam::point_at(double field_rad) {
-    direction_ = {0, std::sin(field_rad), std::cos(field_rad)};
-    across_ = {0, std::cos(field_rad), -std::sin(field_rad)};
-    if (std::isfinite(object_.distance_mm))
-        object_position_ = {0, -object_.distance_mm * std::tan(field_rad),
+    const Point outward{std::sin(object_.turned_rad), std::cos(object_.turned_rad)};
+    const double sine = std::sin(field_rad), cosine = std::cos(field_rad);
+    direction_ = {sine * outward.x, sine * outward.y, cosine};
+    across_ = {cosine * outward.x, cosine * outward.y, -sine};
+    aside_ = {outward.y, -outward.x, 0};
+    if (std::isfinite(object_.distance_mm)) {
+        const double off_axis = -object_.distance_mm * std::tan(field_rad);
+        object_position_ = {off_axis * outward.x, off_axis * outward.y,
                             entrance_pupil_mm_ - object_.distance_mm};
+    }
 }
 
 Ray Beam::launch(Point at) const {
-    const Vec3 through = Vec3{at.x, 0, entrance_pupil_mm_} + at.y * across_;
+    const Vec3 through = Vec3{0, 0, entrance_pupil_mm_} + at.x * aside_ + at.y * across_;
     if (std::isinf(object_.distance_mm)) return {through, direction_};
     return {through, normalised(through - object_position_)};
 }
@@ -104,12 +109,51 @@ bool Beam::find_chief() {
     return true;
 }
 
+// The same in both directions, of a lens with cylinders.
+bool Beam::find_chief_askew() {
+    const double wanted = object_.field_rad, step_mm = 1e-4 * stop_radius_mm_;
+    point_at(0);
+    const auto aside = stop_from_launch({step_mm, 0}), up = stop_from_launch({0, step_mm});
+    if (!aside || !up) return false;
+    scale_ = {step_mm / std::hypot(aside->x, aside->y), step_mm / std::hypot(up->x, up->y)};
+    double field = 0, step = 5 * std::numbers::pi / 180;
+    Point rate{};
+    while (field < wanted) {
+        const double next = std::min(field + step, wanted);
+        point_at(next);
+        const auto found =
+            aim_carefully({0, 0}, {chief_.x + rate.x * (next - field), chief_.y + rate.y * (next - field)});
+        if (!found) {
+            step /= 2;
+            if (step < 1e-4) return false;
+            continue;
+        }
+        rate = {(found->launch.x - chief_.x) / (next - field), (found->launch.y - chief_.y) / (next - field)};
+        chief_ = found->launch;
+        field = next;
+    }
+    point_at(wanted);
+    const double dx = 1e-4 * scale_.x, dy = 1e-4 * scale_.y;
+    const auto here = stop_from_launch(chief_), right = stop_from_launch({chief_.x + dx, chief_.y}),
+               above = stop_from_launch({chief_.x, chief_.y + dy});
+    if (!here || !right || !above) return false;
+    const Point of_x{(right->x - here->x) / dx, (right->y - here->y) / dx},
+        of_y{(above->x - here->x) / dy, (above->y - here->y) / dy};
+    const double determinant = of_x.x * of_y.y - of_x.y * of_y.x;
+    if (determinant == 0) return false;
+    by_x_ = {of_y.y / determinant, -of_x.y / determinant};
+    by_y_ = {-of_y.x / determinant, of_x.x / determinant};
+    return true;
+}
+
 bool Beam::measure_scale() {
     const double step = 1e-4 * std::abs(scale_.y);
     const auto right = stop_from_launch({step, chief_.y});
     const auto up = stop_from_launch({0, chief_.y + step}), down = stop_from_launch({0, chief_.y - step});
     if (!right || !up || !down || right->x == 0 || up->y == down->y) return false;
     scale_ = {step / right->x, 2 * step / (up->y - down->y)};
+    by_x_ = {scale_.x, 0};
+    by_y_ = {0, scale_.y};
     return std::isfinite(scale_.x) && std::isfinite(scale_.y);
 }
 
@@ -141,17 +185,19 @@ std::optional<Beam::Aimed> Beam::aim_carefully(Point stop, Point start) const {
     return std::nullopt;
 }
 
-// Rays that land on or near rings of the half stop x >= 0 (the other half mirrors it), each aimed by the two
-// before it on its spoke; then the polynomial of highest degree that they determine. Where a ray really lands
-// is what counts, so only one that misses its ring is aimed by Newton's method.
+// Rays that land on or near rings of the stop, or of its half x >= 0 where the other half mirrors it, each
+// aimed by the two before it on its spoke; then the polynomial of highest degree that they determine. Where a
+// ray really lands is what counts, so only one that misses its ring is aimed by Newton's method.
 void Beam::fit_map() {
     constexpr int kRings = 6, kSpokes = 13;
+    const int spokes = lens_->round ? kSpokes : 2 * kSpokes - 2;
     constexpr double kNear = 0.02;  // in stop radii; the outermost rings are 0.034 apart
     std::vector<Point> stop{{0, 0}}, launched{chief_};
-    for (int spoke = 0; spoke < kSpokes; ++spoke) {
+    for (int spoke = 0; spoke < spokes; ++spoke) {
         const double angle = std::numbers::pi * (double(spoke) / (kSpokes - 1) - 0.5);
         const Point along{std::cos(angle), std::sin(angle)};
-        Point from = chief_, rate{scale_.x * along.x, scale_.y * along.y};
+        Point from = chief_,
+              rate{by_x_.x * along.x + by_y_.x * along.y, by_x_.y * along.x + by_y_.y * along.y};
         double reached = 0;
         for (int ring = 1; ring <= kRings; ++ring) {
             const double r = std::sin(std::numbers::pi / 2 * ring / kRings);  // denser towards the rim
@@ -174,14 +220,15 @@ void Beam::fit_map() {
     }
     for (const int degree : {7, 5, 3, 1})
         if (fit(stop, launched, degree)) return;
-    map_x_ = {{1, 0, scale_.x}};
-    map_y_ = {{0, 0, chief_.y}, {0, 1, scale_.y}};
+    map_x_ = {{0, 0, chief_.x}, {1, 0, by_x_.x}, {0, 1, by_y_.x}};
+    map_y_ = {{0, 0, chief_.y}, {1, 0, by_x_.y}, {0, 1, by_y_.y}};
 }
 
 bool Beam::fit(const std::vector<Point>& stop, const std::vector<Point>& launched, int degree) {
+    const int step = lens_->round ? 2 : 1;  // mirror symmetry: x odd or even
     const auto one = [&](int parity, auto component, std::vector<Term>& map) {
         map.clear();
-        for (int i = parity; i <= degree; i += 2)  // mirror symmetry: x odd or even
+        for (int i = parity; i <= degree; i += step)
             for (int j = 0; i + j <= degree; ++j) map.push_back({i, j, 0});
         if (stop.size() < map.size() + map.size() / 2) return false;
         std::vector<std::vector<double>> rows;
@@ -197,7 +244,7 @@ bool Beam::fit(const std::vector<Point>& stop, const std::vector<Point>& launche
         return !solution.empty();
     };
     return one(
-               1, [](Point p) { return p.x; }, map_x_) &&
+               lens_->round ? 1 : 0, [](Point p) { return p.x; }, map_x_) &&
            one(
                0, [](Point p) { return p.y; }, map_y_);
 }
@@ -248,7 +295,9 @@ Result<Beam> Beam::make(std::shared_ptr<const LensAtWavelength> lens, const Obje
     beam.entrance_pupil_mm_ = entrance_pupil_mm;
     beam.stop_radius_mm_ = stop_radius_mm;
     beam.sensor_distance_mm_ = sensor_distance_mm;
-    if (!beam.find_chief() || !beam.measure_scale()) {
+    const bool found =
+        beam.lens_->round ? beam.find_chief() && beam.measure_scale() : beam.find_chief_askew();
+    if (!found) {
         std::ostringstream text;
         text << "no ray from " << object.field_rad * 180 / std::numbers::pi
              << " degrees off the axis passes the centre of the stop: the field is larger than the lens "
@@ -280,9 +329,9 @@ SensorRay Beam::ray(double stop_x, double stop_y) const noexcept {
     const Vec3& d = traced.ray.direction;
     result.reached = true;
     result.clearance = std::max(aimed->before_stop.clearance, traced.clearance);
-    result.x_mm = landing.x;
+    result.x_mm = lens_->squeeze * landing.x;
     result.y_mm = landing.y;
-    result.slope_x = d.x / d.z;
+    result.slope_x = lens_->squeeze * d.x / d.z;
     result.slope_y = d.y / d.z;
 
     if (std::isfinite(object_.distance_mm)) {

@@ -21,13 +21,14 @@ namespace petzval::optics {
 struct ObjectPoint {
     double field_rad = 0;  // angle of its chief ray with the axis, light going up (+y), so the image is at +y
     double distance_mm = 0;  // along the axis from the paraxial entrance pupil, > 0; infinity allowed
+    double turned_rad = 0;   // of the field, about the axis from +y to +x; other than 0 for cylinders only
 };
 
 // A ray where it meets the sensor.
 struct SensorRay {
     bool reached = false;  // false: no ray through that point of the stop gets through the glass
     double clearance = 0;  // largest (height / clear radius) at any rim but the stop's; <= 1: not vignetted
-    double x_mm = 0, y_mm = 0;        // on the sensor, from the axis
+    double x_mm = 0, y_mm = 0;        // on the sensor, from the axis; x times LensAtWavelength::squeeze
     double slope_x = 0, slope_y = 0;  // dx/dz, dy/dz: a sensor moved by d from the lens adds d * slope
     double flux = 0;  // light per area of the stop, relative to that at its centre; also if not reached
 };
@@ -49,6 +50,8 @@ public:
     // The ray that enters the lens for that point of the stop, in the frame of the first vertex.
     std::optional<Ray> entering(double stop_x, double stop_y) const noexcept;
 
+    // True if the light is symmetric about the plane of y and z.
+    bool is_mirrored() const { return lens_->round; }
     const ObjectPoint& object() const { return object_; }
     double wavelength_um() const { return lens_->wavelength_um; }
     double stop_radius_mm() const { return stop_radius_mm_; }
@@ -87,6 +90,7 @@ private:
     std::array<std::optional<AtStop>, 2> stop_from_two(Point a, Point b) const;
     std::optional<AtStop> on_stop(TracedRay traced) const;  // of a ray in front of the stop
     bool find_chief();
+    bool find_chief_askew();
     std::optional<double> solve_chief(double guess) const;
     bool measure_scale();
     void fit_map();
@@ -101,9 +105,10 @@ private:
 
     // The wavefront: launch coordinates count from the paraxial pupil's centre in the plane across
     // direction_.
-    Vec3 direction_, across_, object_position_;
-    Point chief_;  // launch coordinates of the chief ray
-    Point scale_;  // launch coordinate per unit of the stop, near the chief ray
+    Vec3 direction_, across_, aside_{1, 0, 0}, object_position_;
+    Point chief_;        // launch coordinates of the chief ray
+    Point scale_;        // launch coordinate per unit of the stop, near the chief ray
+    Point by_x_, by_y_;  // the same in both directions of the stop
     double chief_flux_ = 1;
     std::vector<Term> map_x_, map_y_;
 };

@@ -140,6 +140,13 @@ Result<FirstOrder> first_order(const Prescription& lens, double wavelength_um) {
     return first;
 }
 
+double squeeze(const Prescription& lens) {
+    if (is_round(lens)) return 1;
+    const LensAtWavelength primary = at_wavelength(lens, lens.primary_um);
+    return trace_paraxial(from_above(primary), {1, 0}).behind_last().slope /
+           trace_paraxial(primary, {1, 0}).behind_last().slope;
+}
+
 double field_angle_deg(const Prescription& lens, const FirstOrder& first) {
     const double from_pupil = lens.object_distance_mm + first.entrance_pupil_position_mm;
     switch (lens.field_kind) {

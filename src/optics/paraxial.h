@@ -27,7 +27,8 @@ struct ParaxialTrace {
 // `ray` is given at the first vertex, in front of it.
 ParaxialTrace trace_paraxial(const LensAtWavelength& lens, ParaxialRay ray);
 
-// First-order properties at one wavelength. Lengths in mm. Positions: + is towards the image.
+// First-order properties at one wavelength, in the plane of y and z. Lengths in mm. Positions: + is towards
+// the image.
 struct FirstOrder {
     double focal_length_mm = 0;          // EFL, positive for a lens that converges
     double back_focal_length_mm = 0;     // BFL, last vertex to rear focal point
@@ -45,6 +46,10 @@ struct FirstOrder {
 // `wavelength_um`. Errors: InvalidArgument for a lens without power (no focal length) or with a pupil at
 // infinity in front.
 Result<FirstOrder> first_order(const Prescription& lens, double wavelength_um);
+
+// The focal length divided by that of rays in the plane of x and z, at the primary wavelength. A lens with
+// cylinders draws its image narrower by this factor. 1 for a round lens.
+double squeeze(const Prescription& lens);
 
 // Distance from the last vertex to the paraxial image of an object in front of the first vertex by
 // object_distance_mm (infinity allowed, negative: virtual).

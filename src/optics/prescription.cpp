@@ -35,6 +35,13 @@ Status check_surface(const Prescription& lens, std::size_t i) {
     if (!finite_within(surface.curvature_per_mm, 1e6))
         return wrong(where + ": radius in mm", 1 / surface.curvature_per_mm, "a finite number other than 0");
     if (!finite_within(surface.conic, 1e9)) return wrong(where + ": conic", surface.conic, "finite");
+    if (!finite_within(surface.cylinder_per_mm, 1e6))
+        return wrong(where + ": cylinder radius in mm", 1 / surface.cylinder_per_mm,
+                     "a finite number other than 0");
+    if (surface.cylinder_per_mm != 0 &&
+        (surface.curvature_per_mm != 0 || surface.conic != 0 || !surface.asphere.empty()))
+        return Error{ErrorCode::InvalidArgument,
+                     where + ": a cylinder has no radius, conic or asphere besides its own radius"};
     if (!finite_within(surface.thickness_mm, kLongest_mm))
         return wrong(where + ": thickness in mm", surface.thickness_mm, "within +-1e7");
     if (!(surface.clear_radius_mm > 0))
@@ -80,9 +87,15 @@ Status check(const Prescription& lens) {
     return Done{};
 }
 
+bool is_round(const Prescription& lens) {
+    return std::all_of(lens.surfaces.begin(), lens.surfaces.end(),
+                       [](const Surface& s) { return s.cylinder_per_mm == 0; });
+}
+
 Prescription scaled(Prescription lens, double factor) {
     for (Surface& surface : lens.surfaces) {
         surface.curvature_per_mm /= factor;
+        surface.cylinder_per_mm /= factor;
         surface.thickness_mm *= factor;
         surface.clear_radius_mm *= factor;
         for (AsphereTerm& term : surface.asphere) term.coefficient *= std::pow(factor, 1 - term.power);
@@ -104,6 +117,7 @@ Prescription reversed(const Prescription& lens) {
         Surface& to = result.surfaces[i];
         to = from;
         to.curvature_per_mm = -from.curvature_per_mm;
+        to.cylinder_per_mm = -from.cylinder_per_mm;
         for (AsphereTerm& term : to.asphere) term.coefficient = -term.coefficient;
         if (i + 1 < count) {
             to.thickness_mm = lens.surfaces[count - 2 - i].thickness_mm;

@@ -3,6 +3,8 @@
 // Light travels +z. A radius is positive when the centre of curvature lies on the image side. Thickness and
 // glass are those FOLLOWING a surface. The sag of a surface at distance r from the axis is
 //     z(r) = c r^2 / (1 + sqrt(1 - (1 + conic) c^2 r^2)) + sum_p coefficient_p r^p
+// A cylinder stands upright: it has that sag (a circle's) at distance x from the plane of y and z, whatever
+// y.
 #pragma once
 
 #include "petzval/result.h"
@@ -26,6 +28,7 @@ struct Surface {
     double curvature_per_mm = 0;  // 1/radius; 0 is a plane
     double conic = 0;             // -1 paraboloid, 0 sphere
     std::vector<AsphereTerm> asphere;
+    double cylinder_per_mm = 0;  // 1/radius of an upright cylinder, which is not curved otherwise; 0: none
     double thickness_mm = 0;  // to the next surface; of the last one: to the image as published, 0 if unknown
     Glass after;
     double clear_radius_mm = std::numeric_limits<double>::infinity();  // > 0
@@ -66,6 +69,9 @@ struct Prescription {
 
 // Errors: InvalidArgument naming the surface (counted from 1) and the number that no lens can have.
 Status check(const Prescription& lens);
+
+// True if no surface is a cylinder.
+bool is_round(const Prescription& lens);
 
 // Every length times `factor`: the same lens for another format. Requires: factor > 0.
 Prescription scaled(Prescription lens, double factor);

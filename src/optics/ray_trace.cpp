@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace petzval::optics {
 namespace {
@@ -53,6 +54,18 @@ std::optional<Vec3> intersect_conic(double c, double conic, const Ray& ray) {
     return p;
 }
 
+// A cylinder is met where the ray's shadow on the plane of x and z meets the circle.
+std::optional<Vec3> intersect_cylinder(double c, const Ray& ray) {
+    const double share = std::hypot(ray.direction.x, ray.direction.z);  // of the direction's length
+    if (!(share > 0)) return std::nullopt;
+    const Vec3 shadow{ray.direction.x / share, 0, ray.direction.z / share};
+    const Vec3 from{ray.position.x, 0, ray.position.z};
+    const auto hit = intersect_conic(c, 0, {from, shadow});
+    if (!hit) return std::nullopt;
+    const double way = dot(*hit - from, shadow) / share;
+    return Vec3{hit->x, ray.position.y + way * ray.direction.y, hit->z};
+}
+
 // The point where sag(r) = z, from a first guess on the ray.
 std::optional<Vec3> refine_on_asphere(const RefractingSurface& surface, const Ray& ray, Vec3 guess) {
     const Vec3& d = ray.direction;
@@ -72,6 +85,8 @@ std::optional<Vec3> refine_on_asphere(const RefractingSurface& surface, const Ra
 
 // Unit normal, towards the light.
 Vec3 normal_at(const RefractingSurface& surface, Vec3 p) {
+    if (surface.cylinder_per_mm != 0)
+        return normalised({surface.cylinder_per_mm * p.x, 0, surface.cylinder_per_mm * p.z - 1});
     if (surface.asphere.empty()) {
         const double c = surface.curvature_per_mm;
         return normalised({c * p.x, c * p.y, c * (1 + surface.conic) * p.z - 1});
@@ -119,11 +134,13 @@ LensAtWavelength at_wavelength(const Prescription& lens, double wavelength_um) {
     LensAtWavelength result;
     result.wavelength_um = wavelength_um;
     result.stop = lens.stop;
+    result.round = is_round(lens);
     double index = 1;
     for (const Surface& surface : lens.surfaces) {
         RefractingSurface to;
         to.curvature_per_mm = surface.curvature_per_mm;
         to.conic = surface.conic;
+        to.cylinder_per_mm = surface.cylinder_per_mm;
         to.thickness_mm = surface.thickness_mm;
         to.clear_radius_mm = surface.clear_radius_mm;
         to.index_before = index;
@@ -138,7 +155,14 @@ LensAtWavelength at_wavelength(const Prescription& lens, double wavelength_um) {
     return result;
 }
 
+LensAtWavelength from_above(LensAtWavelength lens) {
+    for (RefractingSurface& s : lens.surfaces) s.curvature_per_mm += std::exchange(s.cylinder_per_mm, 0);
+    lens.round = true;
+    return lens;
+}
+
 std::optional<Vec3> intersect(const RefractingSurface& surface, const Ray& ray) noexcept {
+    if (surface.cylinder_per_mm != 0) return intersect_cylinder(surface.cylinder_per_mm, ray);
     const auto on_conic = intersect_conic(surface.curvature_per_mm, surface.conic, ray);
     if (surface.asphere.empty()) return on_conic;
     if (on_conic) return refine_on_asphere(surface, ray, *on_conic);

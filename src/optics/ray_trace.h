@@ -35,12 +35,13 @@ struct Ray {
 // A surface with the indices of one wavelength.
 struct RefractingSurface {
     double curvature_per_mm = 0, conic = 0;
+    double cylinder_per_mm = 0;   // of an upright cylinder, whose other numbers are 0
     std::vector<double> asphere;  // coefficient of r^p at [p]; empty for a conic
     double thickness_mm = 0;
     double index_before = 1, index_after = 1;
     double clear_radius_mm = 0;
 
-    // NaN outside the conic's reach. r in mm >= 0.
+    // In the plane of y and z, in which a cylinder is a plane. NaN outside the conic's reach. r in mm >= 0.
     double sag_mm(double r) const;
     double slope(double r) const;              // d sag / d r
     double second_derivative(double r) const;  // d2 sag / d r2, 1/mm
@@ -52,12 +53,17 @@ struct LensAtWavelength {
     double wavelength_um = 0;
     std::vector<RefractingSurface> surfaces;
     int stop = 0;
+    bool round = true;   // no surface is a cylinder
+    double squeeze = 1;  // by how much the image is shown wider than it is; see TracedLens::squeeze()
 
     int count() const { return int(surfaces.size()); }
 };
 
 // The medium in front is air. Requires: check(lens) succeeded.
 LensAtWavelength at_wavelength(const Prescription& lens, double wavelength_um);
+// The lens as light in the plane of x and z meets it: each cylinder is a surface of its radius. For paraxial
+// rays.
+LensAtWavelength from_above(LensAtWavelength lens);
 
 // Intersection of the ray with the surface, both in the surface's frame; nothing if they do not meet.
 std::optional<Vec3> intersect(const RefractingSurface& surface, const Ray& ray) noexcept;

@@ -52,6 +52,29 @@ TEST(RayTrace, TheStartingPointOnTheLineDoesNotMatter) {
     }
 }
 
+TEST(RayTrace, ACylinderIsASphereFromTheSideAndAPlaneFromBelow) {
+    Prescription sphere = singlet(), plane = singlet(), upright = singlet();
+    plane.surfaces[0].curvature_per_mm = 0;
+    upright.surfaces[0] = cylinder(51.68, 5, 1.5168, 64.17, 15);
+    const auto as_sphere = at_wavelength(sphere, kLineD_um), as_plane = at_wavelength(plane, kLineD_um);
+    const auto as_cylinder = at_wavelength(upright, kLineD_um);
+    const auto expect_same = [](const TracedRay& a, const TracedRay& b) {
+        ASSERT_EQ(a.fate, RayFate::Passed);
+        EXPECT_NEAR(length(a.ray.position - b.ray.position), 0, 1e-12);
+        EXPECT_NEAR(length(a.ray.direction - b.ray.direction), 0, 1e-14);
+    };
+    const Ray aside{{7, 0, 0}, {std::sin(0.1), 0, std::cos(0.1)}};
+    expect_same(trace(as_cylinder, aside), trace(as_sphere, aside));
+    expect_same(trace(as_cylinder, slanted(7, 0, 0.1)), trace(as_plane, slanted(7, 0, 0.1)));
+    // A skew ray: the same wherever it meets the cylinder along its axis.
+    const Ray skew{{5, 2, 0}, normalised({0.1, -0.2, 1})};
+    TracedRay low = trace(as_cylinder, skew),
+              high = trace(as_cylinder, {skew.position + Vec3{0, 3, 0}, skew.direction});
+    high.ray.position.y -= 3;
+    expect_same(low, high);
+    EXPECT_GT(std::abs(low.ray.direction.x - trace(as_plane, skew).ray.direction.x), 0.01);
+}
+
 TEST(RayTrace, AParaboloidMirrorsTheDefinitionOfItsSag) {
     RefractingSurface s;
     s.curvature_per_mm = 0.05;

@@ -34,6 +34,34 @@ inline Prescription double_gauss() {
     return lens;
 }
 
+// An upright cylinder.
+inline Surface cylinder(double radius_mm, double thickness_mm, double nd, double vd, double clear_radius_mm) {
+    Surface s = surface(0, thickness_mm, nd, vd, clear_radius_mm);
+    s.cylinder_per_mm = 1 / radius_mm;
+    return s;
+}
+
+// 60.5 mm f/1.96, squeeze 1.92: US 6,310,731.
+inline Prescription anamorphic() {
+    Prescription lens;
+    lens.name = "anamorphic";
+    lens.surfaces = {cylinder(-101.3, 4, 1.591, 61, 30),    cylinder(50, 7.7, 1.762, 27.2, 30),
+                     cylinder(87.3, 71.3, 1, 0, 30),        surface(0, 4.4, 1.711, 30.3, 28),
+                     cylinder(122.4, 9.5, 1.716, 53.8, 28), cylinder(-122.4, 2, 1, 0, 28),
+                     surface(38.4, 6, 1.681, 54.9, 18),     surface(-783.3, 0.1, 1, 0, 18),
+                     surface(35.9, 3.8, 1.758, 52.3, 16),   surface(55.5, 2.2, 1, 0, 16),
+                     surface(-575.3, 9.2, 1.624, 36.4, 14), surface(18.8, 3.05, 1, 0, 10.5),
+                     surface(0, 3.05, 1, 0, 10.5),          surface(-18.5, 1.5, 1.704, 30.1, 10.5),
+                     surface(70.7, 1.7, 1, 0, 11),          surface(99.6, 4.4, 1.792, 47.5, 12),
+                     surface(-26, 0.3, 1, 0, 12),           surface(115.2, 3.9, 1.732, 54.7, 14),
+                     surface(-53.2, 43.33, 1, 0, 14)};
+    lens.stop = 12;
+    lens.aperture_kind = ApertureKind::StopRadius;
+    lens.aperture = 9.8;
+    lens.field = 20.8;
+    return lens;
+}
+
 // f = 1, 160 degrees, US 4,256,373.
 inline Prescription fisheye() {
     Prescription lens;

@@ -1,7 +1,11 @@
 #include "optics/traced_lens.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <sstream>
+#include <utility>
 
 namespace petzval::optics {
 namespace {
@@ -18,6 +22,53 @@ double real_stop_height(const LensAtWavelength& lens, double height_mm) {
     return std::abs(trace_paraxial(lens, {height_mm, 0}).height_mm[std::size_t(lens.stop)]);
 }
 
+// The surface in front of the first air space between cylinders.
+std::optional<std::size_t> space_between_cylinders(const Prescription& lens) {
+    const auto is_cylinder = [](const Surface& s) { return s.cylinder_per_mm != 0; };
+    const auto last = std::find_if(lens.surfaces.rbegin(), lens.surfaces.rend(), is_cylinder);
+    const auto first = std::find_if(lens.surfaces.begin(), lens.surfaces.end(), is_cylinder);
+    for (auto s = first; s != lens.surfaces.end() && s + 1 < last.base(); ++s)
+        if (s->after.index(lens.primary_um) == 1) return std::size_t(s - lens.surfaces.begin());
+    return std::nullopt;
+}
+
+// Light in the plane of x and z comes to a focus this much farther away than light in the plane of y and z.
+double astigmatism_mm(const Prescription& lens, double object_distance_mm) {
+    const LensAtWavelength primary = at_wavelength(lens, lens.primary_um);
+    return paraxial_image_distance_mm(from_above(primary), object_distance_mm) -
+           paraxial_image_distance_mm(primary, object_distance_mm);
+}
+
+// The lens with the space between its cylinders as focusing sets it, by the secant method.
+Result<Prescription> with_cylinders_focused(Prescription lens, double focus_mm) {
+    const auto space = space_between_cylinders(lens);
+    if (!space || std::isinf(focus_mm)) return lens;
+    const double wanted = astigmatism_mm(lens, std::numeric_limits<double>::infinity());
+    double& gap = lens.surfaces[*space].thickness_mm;
+    const double printed = gap;
+    const auto miss_at = [&](double mm) {
+        gap = mm;
+        const auto first = first_order(lens, lens.primary_um);
+        return first ? astigmatism_mm(lens, focus_mm - first->entrance_pupil_position_mm) - wanted
+                     : std::numeric_limits<double>::quiet_NaN();
+    };
+    double before = printed, miss_before = miss_at(before);
+    double here = 1.001 * printed;
+    for (int iteration = 0; iteration < 40; ++iteration) {
+        const double miss = miss_at(here);
+        if (std::abs(miss) < 1e-9 * printed) return lens;
+        const double next = here - miss * (here - before) / (miss - miss_before);
+        if (!(next > 0.2 * printed && next < 3 * printed)) break;
+        before = here;
+        miss_before = miss;
+        here = next;
+    }
+    std::ostringstream text;
+    text << "focus distance is " << focus_mm << " mm; " << lens.name
+         << " cannot bring both planes of its cylinders to focus that near";
+    return Error{ErrorCode::InvalidArgument, text.str()};
+}
+
 Error no_image(double focus_mm, double nearest_mm) {
     std::ostringstream text;
     text << "focus distance is " << focus_mm
@@ -30,12 +81,18 @@ Error no_image(double focus_mm, double nearest_mm) {
 
 Result<TracedLens> TracedLens::make(Prescription lens, const LensSetting& setting) {
     if (const Status status = check(lens); !status) return status.error();
-    const auto first = optics::first_order(lens, lens.primary_um);
-    if (!first) return first.error();
     if (!(setting.focus_distance_mm > 0))
         return Error{ErrorCode::InvalidArgument, "focus distance must be positive"};
-
     TracedLens result;
+    if (!is_round(lens)) {
+        result.squeeze_ = optics::squeeze(lens);
+        auto focused = with_cylinders_focused(std::move(lens), setting.focus_distance_mm);
+        if (!focused) return focused.error();
+        lens = std::move(*focused);
+    }
+    const auto first = optics::first_order(lens, lens.primary_um);
+    if (!first) return first.error();
+
     result.first_ = *first;
     result.f_number_ = first->f_number;
     if (setting.f_number != 0) {
@@ -81,11 +138,12 @@ Result<TracedLens> TracedLens::make(Prescription lens, const LensSetting& settin
 }
 
 Result<Beam> TracedLens::beam(double wavelength_um, double field_rad) const {
-    return beam(wavelength_um, ObjectPoint{field_rad, focus_distance_mm_});
+    return beam(wavelength_um, in_focus(field_rad));
 }
 
 Result<Beam> TracedLens::beam(double wavelength_um, const ObjectPoint& object) const {
-    auto lens = std::make_shared<const LensAtWavelength>(at_wavelength(lens_, wavelength_um));
+    auto lens = std::make_shared<LensAtWavelength>(at_wavelength(lens_, wavelength_um));
+    lens->squeeze = squeeze_;
     for (const RefractingSurface& surface : lens->surfaces)
         if (!std::isfinite(surface.index_after)) {
             std::ostringstream text;
@@ -127,6 +185,11 @@ double best_focus_shift_mm(std::span<const Beam> axial_beams, std::span<const do
             if (!ray.reached || ray.clearance > 1) continue;
             cross += weights[k] * ray.flux * ray.y_mm * ray.slope_y;
             square += weights[k] * ray.flux * ray.slope_y * ray.slope_y;
+            if (axial_beams[k].is_mirrored()) continue;
+            const SensorRay aside = axial_beams[k].ray(r, 0);
+            if (!aside.reached || aside.clearance > 1) continue;
+            cross += weights[k] * aside.flux * aside.x_mm * aside.slope_x;
+            square += weights[k] * aside.flux * aside.slope_x * aside.slope_x;
         }
     }
     return square > 0 ? -cross / square : 0;

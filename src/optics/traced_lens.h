@@ -2,7 +2,8 @@
 //
 // Focusing is unit focusing: the whole lens moves. The object in focus and the sensor are conjugates of the
 // paraxial trace at the primary wavelength, exactly, plus a shift of the sensor that best_focus_shift_mm or
-// the caller chooses.
+// the caller chooses. A lens with cylinders also changes the first air space between them, so that light in
+// the plane of x and z stays as near to focus as it is for an object at infinity.
 #pragma once
 
 #include "petzval/result.h"
@@ -41,6 +42,9 @@ public:
         return magnification_;
     }  // image / object height, < 0 as a rule; 0 at
        // infinity
+    // The image's width is shown times this, so that it matches a round lens of this focal length; see
+    // optics::squeeze(). Rays of beams have it in their x.
+    double squeeze() const { return squeeze_; }
     // Slope in the image space of the paraxial ray through the stop's rim: the sensor moved by d blurs to a
     // disc of radius |d| * this. Real rays: SensorRay::slope.
     double image_side_slope() const { return image_slope_; }
@@ -48,6 +52,9 @@ public:
     // Beam of an object point, at any wavelength from 0.1 to 20 um. By default the object is in the plane of
     // focus. Errors: see Beam::make.
     Result<Beam> beam(double wavelength_um, double field_rad) const;
+    ObjectPoint in_focus(double field_rad, double turned_rad = 0) const {
+        return {field_rad, focus_distance_mm_, turned_rad};
+    }
     Result<Beam> beam(double wavelength_um, const ObjectPoint& object) const;
 
 private:
@@ -56,7 +63,7 @@ private:
     Prescription lens_;
     FirstOrder first_;
     double f_number_ = 0, stop_radius_mm_ = 0, sensor_mm_ = 0, magnification_ = 0, image_slope_ = 0;
-    double focus_distance_mm_ = 0;
+    double focus_distance_mm_ = 0, squeeze_ = 1;
 };
 
 // Share of the stop's radius, 0…1, that light from the middle of the field fills before a rim of the glass,

@@ -43,6 +43,42 @@ TEST(TracedLens, RaysAreAimedAtTheRealStopUpToTheEdgeOfAFisheye) {
     }
 }
 
+TEST(TracedLens, RaysThroughCylindersAreAimedAtTheRealStopWhereverTheFieldIs) {
+    const Prescription lens = anamorphic();
+    const TracedLens open = traced(lens, {.focus_distance_mm = 3000});
+    for (const double turned_deg : {0.0, -35.0, -90.0, 125.0})
+        for (const double field_deg : {0.0, 8.0, 14.0}) {
+            const auto beam = open.beam(kLineD_um, open.in_focus(field_deg * kDegree, turned_deg * kDegree));
+            ASSERT_TRUE(beam) << beam.error().message;
+            for (const auto& [x, y] : {std::pair{0.0, 0.0}, {0.5, 0.5}, {-0.3, -0.6}, {0.7, -0.1}}) {
+                if (!beam->ray(x, y).reached) continue;
+                const Vec3 hit = stop_crossing(open.prescription(), *beam, x, y);
+                EXPECT_NEAR(hit.x, x, 1e-8) << turned_deg << " " << field_deg;
+                EXPECT_NEAR(hit.y, y, 1e-8) << turned_deg << " " << field_deg;
+            }
+            // Shown at its full width, the picture is that of a pinhole within the lens's distortion.
+            const SensorRay chief = beam->ray(0, 0);
+            const double height = 60.55 * std::tan(field_deg * kDegree);
+            EXPECT_NEAR(chief.x_mm, height * std::sin(turned_deg * kDegree), 0.07 * height + 1e-9);
+            EXPECT_NEAR(chief.y_mm, height * std::cos(turned_deg * kDegree), 0.07 * height + 1e-9);
+        }
+}
+
+TEST(TracedLens, BothPlanesOfCylindersComeToFocusAtEveryDistance) {
+    EXPECT_NEAR(squeeze(anamorphic()), 1.923, 1e-3);
+    EXPECT_EQ(squeeze(double_gauss()), 1);
+    for (const double focus_mm : {1500.0, 4000.0, std::numeric_limits<double>::infinity()}) {
+        const TracedLens lens = traced(anamorphic(), {.focus_distance_mm = focus_mm});
+        const auto beam = lens.beam(kLineD_um, 0.0);
+        ASSERT_TRUE(beam) << beam.error().message;
+        // Rays near the axis, whose slope is about 1 in 40; both planes focus as near as in the patent.
+        const SensorRay aside = beam->ray(0.1, 0), up = beam->ray(0, 0.1);
+        EXPECT_NEAR(aside.x_mm / aside.slope_x, 0.024, 0.01) << focus_mm;
+        EXPECT_NEAR(up.y_mm / up.slope_y, 0, 0.01) << focus_mm;
+    }
+    EXPECT_FALSE(TracedLens::make(anamorphic(), {.focus_distance_mm = 200}));
+}
+
 TEST(TracedLens, TheChiefRayMovesOutwardsWithTheFieldAllTheWay) {
     const TracedLens lens = traced(fisheye());
     double previous = -1;

@@ -1,7 +1,8 @@
 // Landing points of the rays of one object point, as polynomials of their positions in the stop.
 //
-// Everything is symmetric about the plane through the axis and the object, so along the field's direction
-// only even powers of the coordinate across it occur, and across it only odd ones.
+// In a round lens everything is symmetric about the plane through the axis and the object, so along the
+// field's direction only even powers of the coordinate across it occur, and across it only odd ones. In a
+// lens with cylinders all powers occur, and directions are those of FieldAxis::upright().
 #pragma once
 
 #include "kernel/draw/linear_fit.h"
@@ -33,6 +34,10 @@ std::size_t place_of_power(std::size_t i, std::size_t j);
 struct Displacement {
     std::array<double, kEvenTerms> along{};
     std::array<double, kOddTerms> across{};
+    // The other powers, in a lens with cylinders.
+    bool is_skew = false;
+    std::array<double, kOddTerms> along_odd{};
+    std::array<double, kEvenTerms> across_even{};
 
     Point at(const PupilPowers& powers) const;
     Displacement& add(double factor, const Displacement& other);
@@ -41,9 +46,9 @@ struct Displacement {
 // Computes the landing points of many pupil points, several at a time (SIMD); `landed` has room for one per
 // point.
 void land(const Displacement& map, std::span<const Point> pupil, Point* landed);
-// The value of a polynomial of even powers at many points of the pupil.
-void values_at(const std::array<double, kEvenTerms>& polynomial, std::span<const Point> pupil,
-               double* values);
+struct RayMap;
+// Light per area of the pupil at many points; fitted light may fall below 0, and counts as none there.
+void lights_at(const RayMap& map, std::span<const Point> pupil, double* lights);
 
 // The part of the stop that no rim but the stop's own cuts off, seen from the beam's object: a polygon around
 // its middle, (along, across), corners at even angles from +along. Where nothing is cut it reaches beyond the
@@ -51,6 +56,7 @@ void values_at(const std::array<double, kEvenTerms>& polynomial, std::span<const
 struct OpenStop {
     Point middle;
     std::vector<Point> corners;  // empty: no ray passes
+    bool is_mirrored = true;     // corners with across < 0 mirror those with across > 0
 
     static OpenStop of(const optics::Beam& beam, int corners);
 };
@@ -61,15 +67,18 @@ struct RayMap {
     Displacement slope;      // what a sensor moved by 1 mm away from the lens adds
     Displacement
         per_coc;  // what an object adds that is out of focus, per signed radius: about the pupil point
-    std::array<double, kEvenTerms> light{};  // per area of the stop
+    std::array<double, kEvenTerms> light{};     // per area of the stop
+    std::array<double, kOddTerms> light_odd{};  // its other powers, in a lens with cylinders
 
     RayMap& add(double factor, const RayMap& other);
 };
 
-// Light per area of the pupil at a point; fitted light may fall below 0, and counts as none there.
+// The same at one point.
 inline double light_at(const RayMap& map, const PupilPowers& powers) {
     double light = 0;
     for (std::size_t i = 0; i < map.light.size(); ++i) light += map.light[i] * powers.even[i];
+    if (map.offset_mm.is_skew)
+        for (std::size_t i = 0; i < map.light_odd.size(); ++i) light += map.light_odd[i] * powers.odd[i];
     return std::max(0.0, light);
 }
 
@@ -80,7 +89,7 @@ public:
     RayMapFitter(const optics::Beam& primary, const OpenStop& open);
     // False where too few rays get through.
     bool usable() const {
-        return even_.solvable() && odd_.solvable() && samples_.size() > 2 * std::size_t(kEvenTerms);
+        return even_.solvable() && odd_.solvable() && samples_.size() > 2 * even_.unknowns();
     }
     // Requires: usable(). Rays that do not get through at this wavelength count as those of the primary one.
     RayMap fit(const optics::Beam& beam) const;
@@ -96,10 +105,13 @@ private:
         double weight = 1;
     };
     static std::vector<Sample> traced(const optics::Beam& primary, const OpenStop& open);
+    // Targets are one number per sample, times its weight.
+    Displacement fitted(std::vector<double> along, std::vector<double> across) const;
 
     optics::SensorRay chief_;
+    bool is_skew_;
     std::vector<Sample> samples_;
-    LinearFit even_, odd_;
+    LinearFit even_, odd_;  // even_: of all powers, even ones first, in a lens with cylinders
 };
 
 }  // namespace petzval::kernel

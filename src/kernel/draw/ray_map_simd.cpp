@@ -77,11 +77,27 @@ HWY_EXPORT(ValuesAt);
 
 void land(const Displacement& map, std::span<const Point> pupil, Point* landed) {
     HWY_DYNAMIC_DISPATCH(Land)(map, pupil.data(), pupil.size(), landed);
+    if (!map.is_skew) return;
+    Displacement others;  // with along and across exchanged
+    others.along = map.across_even;
+    others.across = map.along_odd;
+    std::vector<Point> added(pupil.size());
+    HWY_DYNAMIC_DISPATCH(Land)(others, pupil.data(), pupil.size(), added.data());
+    for (std::size_t i = 0; i < added.size(); ++i) landed[i] = landed[i] + Point{added[i].y, added[i].x};
 }
 
-void values_at(const std::array<double, kEvenTerms>& polynomial, std::span<const Point> pupil,
-               double* values) {
-    HWY_DYNAMIC_DISPATCH(ValuesAt)(polynomial.data(), pupil.data(), pupil.size(), values);
+void lights_at(const RayMap& map, std::span<const Point> pupil, double* lights) {
+    if (map.offset_mm.is_skew) {
+        Displacement both;
+        both.along = map.light;
+        both.across = map.light_odd;
+        std::vector<Point> parts(pupil.size());
+        HWY_DYNAMIC_DISPATCH(Land)(both, pupil.data(), pupil.size(), parts.data());
+        for (std::size_t i = 0; i < parts.size(); ++i) lights[i] = parts[i].x + parts[i].y;
+    } else {
+        HWY_DYNAMIC_DISPATCH(ValuesAt)(map.light.data(), pupil.data(), pupil.size(), lights);
+    }
+    for (std::size_t i = 0; i < pupil.size(); ++i) lights[i] = std::max(0.0, lights[i]);
 }
 
 }  // namespace petzval::kernel

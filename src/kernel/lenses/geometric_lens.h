@@ -31,6 +31,8 @@ public:
                                                 FieldPosition field) const = 0;
     // True if every point of the pupil lands at itself x the blur radius, for all wavelengths and places.
     virtual bool is_perfect() const { return false; }
+    // False for cylinders: on the axis too, light through a round pupil makes ovals.
+    virtual bool is_round() const { return true; }
     // Share of light that passes a point of the pupil, mean over a square.
     virtual double pupil_transmission(Point pupil, double half_width) const = 0;
     // Pixels of the kernel on the axis, from the source's own to the right (ring_row()), if that costs less

@@ -47,17 +47,27 @@ ThirdOrder::ThirdOrder(const LensChoice& choice, const Mount& mount, double foca
     if (choice.focus_mode == FocusMode::Best) refocus = -2.0 / 3 * spherical - axial_colour * mean_colour();
 }
 
-Displacement ThirdOrder::polynomial(double field, double colour) const {
+// With direction h and pupil point p, coma is side (2 (h.p) p + p^2 h), and astigmatism bend (p - 2 (h.p) h).
+Displacement ThirdOrder::polynomial(double field, double colour, Point outward) const {
     const double even = refocus + axial_colour * colour + curvature * field * field;
     const double bend = astigmatism * field * field, side = coma * field;
     Displacement d;
-    d.along[place_of_power(0, 0)] = lateral_colour * field * colour;
-    d.along[place_of_power(1, 0)] = even - bend;
+    const auto [x, y] = outward;
+    d.along[place_of_power(0, 0)] = lateral_colour * field * colour * x;
+    d.along[place_of_power(1, 0)] = even - bend * (x * x - y * y);
     d.along[place_of_power(3, 0)] = d.along[place_of_power(1, 2)] = spherical;
-    d.along[place_of_power(2, 0)] = 3 * side, d.along[place_of_power(0, 2)] = side;
-    d.across[place_of_power(0, 1)] = even + bend;
+    d.along[place_of_power(2, 0)] = 3 * side * x, d.along[place_of_power(0, 2)] = side * x;
+    d.across[place_of_power(0, 1)] = even + bend * (x * x - y * y);
     d.across[place_of_power(2, 1)] = d.across[place_of_power(0, 3)] = spherical;
-    d.across[place_of_power(1, 1)] = 2 * side;
+    d.across[place_of_power(1, 1)] = 2 * side * x;
+    if (y == 0) return d;
+    d.is_skew = true;
+    d.along_odd[place_of_power(0, 1)] = -2 * bend * x * y;
+    d.along_odd[place_of_power(1, 1)] = 2 * side * y;
+    d.across_even[place_of_power(0, 0)] = lateral_colour * field * colour * y;
+    d.across_even[place_of_power(1, 0)] = -2 * bend * x * y;
+    d.across_even[place_of_power(2, 0)] = side * y;
+    d.across_even[place_of_power(0, 2)] = 3 * side * y;
     return d;
 }
 

@@ -44,8 +44,9 @@ struct ThirdOrder {
         return {(scale - bend) * p.x + side * (3 * p.x * p.x + p.y * p.y) + lateral_colour * field * colour,
                 (scale + bend) * p.y + side * 2 * p.x * p.y};
     }
-    // All of it as a polynomial of the pupil point.
-    Displacement polynomial(double field, double colour) const;
+    // All of it as a polynomial of the pupil point. `outward`: the field's direction in (along, across), of
+    // length 1; other than (1, 0) in a lens with cylinders.
+    Displacement polynomial(double field, double colour, Point outward = {1, 0}) const;
     // No ray is thrown farther.
     double reach() const;
 };

@@ -52,6 +52,12 @@ TEST(ThirdOrder, PolynomialsAreTheFormula) {
         const Point at = added.polynomial(field, colour).at(PupilPowers(p));
         EXPECT_NEAR(at.x, expected.x, 1e-12);
         EXPECT_NEAR(at.y, expected.y, 1e-12);
+        // Turned with the field.
+        const double c = std::cos(0.6), s = std::sin(0.6);
+        const auto turned = [&](Point q) { return Point{c * q.x - s * q.y, s * q.x + c * q.y}; };
+        const Point there = added.polynomial(field, colour, {c, s}).at(PupilPowers(turned(p)));
+        EXPECT_NEAR(there.x, turned(expected).x, 1e-12);
+        EXPECT_NEAR(there.y, turned(expected).y, 1e-12);
     }
 }
 

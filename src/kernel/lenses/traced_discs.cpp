@@ -53,8 +53,8 @@ int TracedModel::bands_for(double path_px) const {
 // The kernel in cells, or what of it lands within a window.
 PointSpread TracedModel::drawn(double coc_radius_px, FieldPosition field, double cell_px,
                                const Rect* window) const {
-    const FieldAxis axis(field);
-    const Node node = at(axis.size);
+    const FieldAxis axis = axis_of(field);
+    const Node node = at(field);
     Fineness fine = fineness(node, outline(node, axis, field, 1e-3), coc_radius_px);
     fine = {fine.size_px / cell_px, fine.path_px / cell_px, bands_for(fine.path_px / cell_px)};
     const RayMap middle = map_at(node, kMiddle_nm);
@@ -65,10 +65,7 @@ PointSpread TracedModel::drawn(double coc_radius_px, FieldPosition field, double
     const double bend_px = 2 * farthest_px - std::min(farthest_px, std::abs(coc_radius_px) / cell_px);
     MeshPupil pupil = mesh_pupil(pupil_, outline(node, axis, field, mesh_tolerance(farthest_px / along_rim)),
                                  size_px, bend_px / along_rim);
-    pupil.density = [&](std::span<const Point> points, double* light) {
-        values_at(middle.light, points, light);
-        for (std::size_t i = 0; i < points.size(); ++i) light[i] = std::max(0.0, light[i]);
-    };
+    pupil.density = [&](std::span<const Point> points, double* light) { lights_at(middle, points, light); };
     if (pupil_.has_texture())
         pupil.transmission = [&](Point p, double half_width) {
             return pupil_.transmission(axis.from_axis(p), half_width);
@@ -87,8 +84,8 @@ PointSpread TracedModel::drawn(double coc_radius_px, FieldPosition field, double
 }
 
 PointSpread TracedModel::spread(double coc_radius_px, FieldPosition field, Colours colours) const {
-    const FieldAxis axis(field);
-    const Node node = at(axis.size);
+    const FieldAxis axis = axis_of(field);
+    const Node node = at(field);
     const Fineness fine = fineness(node, outline(node, axis, field, 1e-3), coc_radius_px);
     const auto mapped = [&](PointSpread kernel) {
         if (colours == Colours::Mapped) map_into_gamut(kernel);
@@ -124,8 +121,9 @@ std::vector<TracedModel::Colour> TracedModel::colours_of(const Node& node, const
 
 // A lens of round surfaces is rotationally symmetric on the axis: one ray per zone is enough.
 std::optional<std::vector<Rgba>> TracedModel::axial_row(double coc_radius_px, RingColours colours) const {
-    if (!pupil_.is_disc({}) || pupil_.has_texture() || mount_.pixel_aspect != 1) return std::nullopt;
-    const Node node = at(0);
+    if (has_cylinders_ || !pupil_.is_disc({}) || pupil_.has_texture() || mount_.pixel_aspect != 1)
+        return std::nullopt;
+    const Node node = at({});
     const std::vector<Point> outline_there = outline(node, FieldAxis({}), {}, 1e-3);
     double rim = 0;
     for (const Point& p : outline_there) rim += std::hypot(p.x, p.y) / double(outline_there.size());

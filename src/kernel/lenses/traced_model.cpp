@@ -15,23 +15,32 @@ namespace petzval::kernel {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr int kNodes = 15;                // field sizes traced, axis and corner included
+constexpr int kNodes = 15;           // field sizes traced, axis and corner included
+constexpr int kAcross = 7, kUp = 5;  // fields of a quarter of the picture traced, of a lens with cylinders
 constexpr double kUnstatedField_deg = 1;  // for lenses whose source speaks of the axis alone
 constexpr int kOutlineCorners = 96;       // of what the rims leave open
 // Wavelengths traced; parabolas join three neighbours.
 constexpr double kTraced_nm[] = {420, 455, 495, 540, 590, 640, 690};
 // The nearer object: its radius, of the pupil's.
 constexpr double kNearCoc = 0.2;
+// The same with cylinders, whose two pupils stand apart: near objects are squeezed less than farther ones.
+constexpr double kNearCocOfCylinders = 0.02;
 constexpr int kRayBands = 62;
 constexpr double kRayWidth =
     1.0 / 256;  // of the window through which rays see the pupil's texture, pupil radii
 
 Error refuse(const std::string& message) { return {ErrorCode::InvalidArgument, message}; }
 
-// Middle of the light, along the field's direction.
+// Middle of the light. Across the field's direction it is 0 in a round lens.
 struct Middle {
-    double offset_mm = 0, slope = 0, per_coc = 0;
+    Point offset_mm, slope, per_coc;
 };
+
+// Moves what a map says of a place by `factor` times a point.
+void shift(Displacement& map, double factor, Point by) {
+    map.along[0] += factor * by.x;
+    if (map.is_skew) map.across_even[0] += factor * by.y;
+}
 
 Middle middle_of(const RayMap& map, const OpenStop& open) {
     constexpr int kRings = 8;
@@ -45,13 +54,13 @@ Middle middle_of(const RayMap& map, const OpenStop& open) {
             const PupilPowers powers(open.middle + (share * reach) * to_corner);
             const double here = light_at(map, powers) * share * reach * reach *
                                 (to_corner.x * to_corner.x + to_corner.y * to_corner.y);
-            sum.offset_mm += here * map.offset_mm.at(powers).x;
-            sum.slope += here * map.slope.at(powers).x;
-            sum.per_coc += here * map.per_coc.at(powers).x;
+            sum.offset_mm = sum.offset_mm + here * map.offset_mm.at(powers);
+            sum.slope = sum.slope + here * map.slope.at(powers);
+            sum.per_coc = sum.per_coc + here * map.per_coc.at(powers);
             light += here;
         }
-    if (light > 0) sum.offset_mm /= light, sum.slope /= light, sum.per_coc /= light;
-    return sum;
+    const auto mean = [light](Point p) { return light > 0 ? Point{p.x / light, p.y / light} : p; };
+    return {mean(sum.offset_mm), mean(sum.slope), mean(sum.per_coc)};
 }
 
 // Luminance of the visible spectrum in the 10 nm around a wavelength.
@@ -119,6 +128,7 @@ std::unique_ptr<const GeometricLens> TracedModel::with(const LensChoice& choice,
 
 Status TracedModel::trace(const optics::Prescription& lens) {
     const Camera& camera = mount_.camera;
+    has_cylinders_ = !optics::is_round(lens);
     px_per_mm_ = mount_.display_width_px / camera.sensor_width_mm;
     if (lens.dispersion_known || added_.has_colour())
         wavelength_nm_.assign(std::begin(kTraced_nm), std::end(kTraced_nm));
@@ -170,7 +180,8 @@ void TracedModel::place_near_object(const optics::TracedLens& lens) {
     // Nothing comes nearer than the front of the lens.
     const double nearest_mm =
         std::max(0.0, lens.first_order().entrance_pupil_position_mm) + 0.5 * mount_.camera.focal_length_mm;
-    const double vergence = std::min(in_focus + kNearCoc * pupil_mm / per_vergence, 1 / nearest_mm);
+    const double near_coc = has_cylinders_ ? kNearCocOfCylinders : kNearCoc;
+    const double vergence = std::min(in_focus + near_coc * pupil_mm / per_vergence, 1 / nearest_mm);
     if (!(vergence > in_focus)) return;
     near_distance_mm_ = 1 / vergence;
     near_coc_mm_ = per_vergence * (in_focus - vergence);
@@ -185,16 +196,8 @@ void TracedModel::trace_fields(const optics::TracedLens& lens) {
     const double usable_deg = designed_deg > 0 ? designed_deg : kUnstatedField_deg;
     const double designed = std::tan(std::min(usable_deg, 85.0) * kPi / 180);
     largest_field_ = std::min(1.0, designed / corner);
-    auto nodes = std::make_shared<Nodes>();
-    for (int i = 0; i < kNodes; ++i) {
-        const double size = largest_field_ * i / (kNodes - 1);
-        std::optional<Node> node = traced_node(lens, std::atan(size * corner));
-        if (!node) break;
-        nodes->push_back(std::move(*node));
-    }
-    node_step_ = largest_field_ / (kNodes - 1);
-    if (!nodes->empty()) largest_field_ = node_step_ * double(nodes->size() - 1);
-    nodes_ = std::move(nodes);
+    nodes_ = std::make_shared<Nodes>(has_cylinders_ ? nodes_of_quarter(lens, corner)
+                                                    : nodes_along_diagonal(lens, corner));
     if (largest_field_ < 0.99) {
         std::ostringstream text;
         text << "; designed for " << std::atan(largest_field_ * corner) * 180 / kPi
@@ -203,9 +206,49 @@ void TracedModel::trace_fields(const optics::TracedLens& lens) {
     }
 }
 
+TracedModel::Nodes TracedModel::nodes_along_diagonal(const optics::TracedLens& lens, double corner) {
+    Nodes nodes;
+    for (int i = 0; i < kNodes; ++i) {
+        const double size = largest_field_ * i / (kNodes - 1);
+        std::optional<Node> node = traced_node(lens, lens.in_focus(std::atan(size * corner)));
+        if (!node) break;
+        nodes.push_back(std::move(*node));
+    }
+    node_step_ = largest_field_ / (kNodes - 1);
+    if (!nodes.empty()) largest_field_ = node_step_ * double(nodes.size() - 1);
+    return nodes;
+}
+
+// The field of the picture's corner above and to the right of the middle, half the diagonal long.
+FieldPosition TracedModel::corner_field() const {
+    const double aspect = double(mount_.display_height_px) / mount_.display_width_px / mount_.pixel_aspect;
+    const double diagonal = std::hypot(1.0, aspect);
+    return {1 / diagonal, aspect / diagonal};
+}
+
+// A node beyond the field that the lens was designed for, or where no light passes, is the next one farther
+// in.
+TracedModel::Nodes TracedModel::nodes_of_quarter(const optics::TracedLens& lens, double corner) const {
+    const FieldPosition farthest = corner_field();
+    Nodes nodes;
+    for (int j = 0; j < kUp; ++j)
+        for (int i = 0; i < kAcross; ++i) {
+            const double x = farthest.x * i / (kAcross - 1), y = farthest.y * j / (kUp - 1);
+            const double size = std::min(std::hypot(x, y), largest_field_);
+            // Light that lands above and to the right in the picture, which is turned by 180 degrees, goes
+            // up and to the left.
+            std::optional<Node> node =
+                traced_node(lens, lens.in_focus(std::atan(size * corner), std::atan2(-x, y)));
+            if (!node && nodes.empty()) return nodes;
+            if (!node) node = i > 0 ? nodes.back() : nodes[nodes.size() - kAcross];
+            nodes.push_back(std::move(*node));
+        }
+    return nodes;
+}
+
 std::optional<TracedModel::Node> TracedModel::traced_node(const optics::TracedLens& lens,
-                                                          double field_rad) const {
-    const auto primary = lens.beam(lens.prescription().primary_um, field_rad);
+                                                          const optics::ObjectPoint& object) const {
+    const auto primary = lens.beam(lens.prescription().primary_um, object);
     if (!primary) return std::nullopt;
     const OpenStop open = OpenStop::of(*primary, kOutlineCorners);
     if (open.corners.empty()) return std::nullopt;
@@ -215,32 +258,33 @@ std::optional<TracedModel::Node> TracedModel::traced_node(const optics::TracedLe
     std::vector<RayMap> all{fitter.fit(*primary)};
     for (const double nm : wavelength_nm_) {
         check_cancelled();
-        const auto beam = lens.beam(nm / 1000, field_rad);
+        const auto beam = lens.beam(nm / 1000, object);
         if (!beam) return std::nullopt;
         all.push_back(fitter.fit(*beam));
     }
-    const auto per_coc = traced_per_coc(lens, field_rad, fitter, all);
+    const auto per_coc = traced_per_coc(lens, object, fitter, all);
     for (std::size_t i = 0; i < all.size(); ++i) all[i].per_coc = per_coc[i];
     const Middle of_primary = middle_of(all[0], open);
     for (std::size_t i = 1; i < all.size(); ++i) {
         RayMap& map = node.maps.emplace_back(all[i]);
         if (choice_.lateral_colour == 1) continue;
         const Middle here = middle_of(map, open);
-        map.offset_mm.along[0] += (choice_.lateral_colour - 1) * (here.offset_mm - of_primary.offset_mm);
-        map.slope.along[0] += (choice_.lateral_colour - 1) * (here.slope - of_primary.slope);
-        map.per_coc.along[0] += (choice_.lateral_colour - 1) * (here.per_coc - of_primary.per_coc);
+        const double more = choice_.lateral_colour - 1;
+        shift(map.offset_mm, more, here.offset_mm - of_primary.offset_mm);
+        shift(map.slope, more, here.slope - of_primary.slope);
+        shift(map.per_coc, more, here.per_coc - of_primary.per_coc);
     }
     return node;
 }
 
 // Displacements of the primary wavelength and of the traced ones. They hardly change with colour: three are
 // enough.
-std::vector<Displacement> TracedModel::traced_per_coc(const optics::TracedLens& lens, double field_rad,
-                                                      const RayMapFitter& fitter,
+std::vector<Displacement> TracedModel::traced_per_coc(const optics::TracedLens& lens,
+                                                      optics::ObjectPoint object, const RayMapFitter& fitter,
                                                       const std::vector<RayMap>& maps) const {
     std::vector<Displacement> result(maps.size());
     for (std::size_t i = 0; i < maps.size(); ++i) result[i].add(1 / image_slope_, maps[i].slope);
-    const optics::ObjectPoint object{field_rad, near_distance_mm_};
+    object.distance_mm = near_distance_mm_;
     const double primary_nm = 1000 * lens.prescription().primary_um;
     if (near_coc_mm_ == 0) return result;  // as on a sensor that moves
     const auto primary = lens.beam(primary_nm / 1000, object);
@@ -296,7 +340,42 @@ double TracedModel::reach_px(double coc_radius_px) const {
     return reach * std::max(1.0, mount_.pixel_aspect);
 }
 
-TracedModel::Node TracedModel::at(double field_size) const {
+TracedModel::Node TracedModel::at(FieldPosition field) const {
+    Node node = has_cylinders_ ? quarter_at(field) : round_at(std::hypot(field.x, field.y));
+    if (added_.any()) add_aberrations(node, field);
+    return node;
+}
+
+void TracedModel::add_aberrations(Node& node, FieldPosition field) const {
+    const double size = std::hypot(field.x, field.y);
+    Point outward{1, 0};
+    if (has_cylinders_ && size > 0) outward = {std::abs(field.y) / size, std::abs(field.x) / size};
+    for (std::size_t w = 0; w < node.maps.size(); ++w)
+        node.maps[w].offset_mm.add(1, added_.polynomial(size, colour_place(wavelength_nm_[w]), outward));
+}
+
+TracedModel::Node TracedModel::quarter_at(FieldPosition field) const {
+    const FieldPosition farthest = corner_field();
+    const auto place = [](double at, double end, int count) {
+        return std::min(std::abs(at) / end, 1.0) * (count - 1);
+    };
+    const double x = place(field.x, farthest.x, kAcross), y = place(field.y, farthest.y, kUp);
+    const int i = std::min(int(x), kAcross - 2), j = std::min(int(y), kUp - 2);
+    const double s = x - i, t = y - j;
+    const double weights[] = {(1 - s) * (1 - t), s * (1 - t), (1 - s) * t, s * t};
+    Node sum;
+    for (int k = 0; k < 4; ++k) {
+        const Node& node = (*nodes_)[std::size_t((j + k / 2) * kAcross + i + k % 2)];
+        sum.maps.resize(node.maps.size());
+        sum.open.resize(node.open.size());
+        for (std::size_t w = 0; w < node.maps.size(); ++w) sum.maps[w].add(weights[k], node.maps[w]);
+        for (std::size_t c = 0; c < node.open.size(); ++c)
+            sum.open[c] = sum.open[c] + weights[k] * node.open[c];
+    }
+    return sum;
+}
+
+TracedModel::Node TracedModel::round_at(double field_size) const {
     const Nodes& nodes = *nodes_;
     const double place = node_step_ > 0 ? std::min(field_size, largest_field_) / node_step_ : 0;
     const std::size_t i = std::min(std::size_t(place), nodes.size() - 1),
@@ -306,8 +385,6 @@ TracedModel::Node TracedModel::at(double field_size) const {
     for (std::size_t w = 0; w < node.maps.size(); ++w) {
         node.maps[w].add(-t, nodes[i].maps[w]);
         node.maps[w].add(t, nodes[k].maps[w]);
-        if (added_.any())
-            node.maps[w].offset_mm.add(1, added_.polynomial(field_size, colour_place(wavelength_nm_[w])));
     }
     for (std::size_t c = 0; c < node.open.size(); ++c)
         node.open[c] = node.open[c] + t * (nodes[k].open[c] - node.open[c]);
@@ -325,6 +402,8 @@ RayMap TracedModel::map_at(const Node& node, double wavelength_nm) const {
 Displacement TracedModel::landing(const RayMap& map, double coc_radius_px) const {
     Displacement px;
     px.add(px_per_mm_, map.offset_mm);
+    // A sensor that moves would not draw the ovals of objects.
+    if (has_cylinders_) return px.add(coc_radius_px, map.per_coc);
     const double of_objects_px = std::min(coc_radius_px, px_per_mm_ * coc_at_infinity_mm_);
     px.add(of_objects_px, map.per_coc);
     px.add((coc_radius_px - of_objects_px) / image_slope_, map.slope);
@@ -334,7 +413,7 @@ Displacement TracedModel::landing(const RayMap& map, double coc_radius_px) const
 std::vector<Point> TracedModel::outline(const Node& node, const FieldAxis& axis, FieldPosition field,
                                         double tolerance) const {
     std::vector<Point> iris = pupil_.outline(field, tolerance);
-    for (Point& p : iris) p = axis.to_axis(p);
+    axis.to_axis(iris);
     std::vector<Point> seen = clipped(iris, node.open);
     // Blades and rims may leave nothing between them; then the rims alone decide.
     if (seen.size() < 3 || area(seen) < 1e-4) seen = clipped(node.open, Circle{}, tolerance);
@@ -342,16 +421,16 @@ std::vector<Point> TracedModel::outline(const Node& node, const FieldAxis& axis,
 }
 
 std::vector<Point> TracedModel::pupil_outline(FieldPosition field, double tolerance) const {
-    const FieldAxis axis(field);
-    std::vector<Point> seen = outline(at(axis.size), axis, field, tolerance);
-    for (Point& p : seen) p = axis.from_axis(p);
+    const FieldAxis axis = axis_of(field);
+    std::vector<Point> seen = outline(at(field), axis, field, tolerance);
+    axis.from_axis(seen);
     return seen;
 }
 
 std::function<Point(Point)> TracedModel::landing(double wavelength_nm, double coc_radius_px,
                                                  FieldPosition field) const {
-    const FieldAxis axis(field);
-    const Displacement px = landing(map_at(at(axis.size), wavelength_nm), coc_radius_px);
+    const FieldAxis axis = axis_of(field);
+    const Displacement px = landing(map_at(at(field), wavelength_nm), coc_radius_px);
     return [px, axis, aspect = mount_.pixel_aspect](Point pupil) {
         const Point image = axis.from_axis(px.at(PupilPowers(axis.to_axis(pupil))));
         return Point{image.x, image.y * aspect};
@@ -359,8 +438,8 @@ std::function<Point(Point)> TracedModel::landing(double wavelength_nm, double co
 }
 
 std::vector<PupilRay> TracedModel::rays(int count, FieldPosition field, std::uint64_t seed) const {
-    const FieldAxis axis(field);
-    const Node node = at(axis.size);
+    const FieldAxis axis = axis_of(field);
+    const Node node = at(field);
     const auto bands = colour::spectral_bands(wavelength_nm_.size() < 3 ? 1 : kRayBands, choice_.light);
     std::vector<RayMap> maps;
     for (const colour::SpectralBand& band : bands) maps.push_back(map_at(node, band.wavelength_nm));

@@ -7,6 +7,9 @@
 // infinity, where no object can be, the sensor moves: by (what is beyond) / (slope of the marginal ray).
 // Vignetting comes from the clear apertures of all surfaces. Kernels are centred on the chief ray of the
 // primary wavelength, so lateral colour shows and distortion does not move the picture.
+//
+// A lens with cylinders is traced for a grid of fields in a quarter of the picture, which the others mirror.
+// Its picture is shown at its full width (TracedLens::squeeze()), so its discs are ovals.
 #pragma once
 
 #include "colour/spectrum.h"
@@ -37,6 +40,7 @@ public:
     std::vector<PupilRay> rays(int count, FieldPosition field, std::uint64_t seed) const override;
     double reach_px(double coc_radius_px) const override;
     bool varies_over_field() const override { return true; }
+    bool is_round() const override { return !has_cylinders_; }
     Mirrors mirrors() const override { return pupil_.mirrors(); }
     std::vector<Point> pupil_outline(FieldPosition field, double tolerance) const override;
     std::function<Point(Point)> landing(double wavelength_nm, double coc_radius_px,
@@ -49,16 +53,26 @@ public:
     std::size_t rays_bytes() const override;
 
 private:
-    struct Node {                  // one field size
+    struct Node {                  // one field size; with cylinders, one field of a quarter of the picture
         std::vector<RayMap> maps;  // by wavelength
         std::vector<Point> open;   // of the stop, (along, across)
     };
+    using Nodes = std::vector<Node>;
     TracedModel(const LensChoice& choice, const Mount& mount);
     Status trace(const optics::Prescription& lens);
     void place_near_object(const optics::TracedLens& lens);
     void trace_fields(const optics::TracedLens& lens);
+    Nodes nodes_along_diagonal(const optics::TracedLens& lens, double corner);
+    Nodes nodes_of_quarter(const optics::TracedLens& lens, double corner) const;
+    FieldPosition corner_field() const;
+    FieldAxis axis_of(FieldPosition field) const {
+        return has_cylinders_ ? FieldAxis::upright(field) : FieldAxis(field);
+    }
     void measure();
-    Node at(double field_size) const;
+    Node at(FieldPosition field) const;
+    Node round_at(double field_size) const;
+    Node quarter_at(FieldPosition field) const;
+    void add_aberrations(Node& node, FieldPosition field) const;
     RayMap map_at(const Node& node, double wavelength_nm) const;
     Displacement landing(const RayMap& map, double coc_radius_px) const;
     std::vector<Point> outline(const Node& node, const FieldAxis& axis, FieldPosition field,
@@ -78,8 +92,8 @@ private:
     PointSpread spread(double coc_radius_px, FieldPosition field, Colours colours) const;
     PointSpread drawn(double coc_radius_px, FieldPosition field, double cell_px, const Rect* window) const;
     std::vector<Colour> colours_of(const Node& node, const Fineness& fine, double coc_radius_px) const;
-    std::optional<Node> traced_node(const optics::TracedLens& lens, double field_rad) const;
-    std::vector<Displacement> traced_per_coc(const optics::TracedLens& lens, double field_rad,
+    std::optional<Node> traced_node(const optics::TracedLens& lens, const optics::ObjectPoint& object) const;
+    std::vector<Displacement> traced_per_coc(const optics::TracedLens& lens, optics::ObjectPoint object,
                                              const RayMapFitter& fitter,
                                              const std::vector<RayMap>& maps) const;
 
@@ -93,9 +107,10 @@ private:
            near_coc_mm_ = 0;  // of the nearer object, its radius on the sensor; 0: none
     double coc_at_infinity_mm_ = 0;
     std::vector<double> wavelength_nm_;
-    using Nodes = std::vector<Node>;
-    std::shared_ptr<const Nodes> nodes_ =
-        std::make_shared<Nodes>();  // even steps of field size, from 0; copies share them
+    bool has_cylinders_ = false;
+    // Even steps of field size, from 0; with cylinders, even steps of both coordinates, row by row. Copies
+    // share them.
+    std::shared_ptr<const Nodes> nodes_ = std::make_shared<Nodes>();
     double node_step_ = 0;
     double largest_field_ = 0;  // of the last node; beyond it, the lens is as there
     double reach_offset_mm_ = 0, reach_per_coc_ = 1;

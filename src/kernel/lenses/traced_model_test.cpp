@@ -316,25 +316,57 @@ TEST(TracedModel, TurningTheFieldTurnsTheKernel) {
 }
 
 TEST(TracedModel, RaysSumToTheRawKernel) {
-    LensChoice choice;
-    choice.name = "double-gauss", choice.aperture = {.blades = 6, .rotation_deg = 8};
-    const auto lens = lens_of(choice, mount_of("double-gauss", 2.8));
-    const FieldPosition field{0.4, 0.5};
-    const PointSpread s = lens->raw_point_spread(-14, field);
-    Moments of_rays;
-    Rgba sum;
-    for (const PupilRay& ray : lens->rays(1 << 15, field, 1)) {
-        const float x = -14 * ray.x + ray.offset_x_px, y = -14 * ray.y + ray.offset_y_px;
-        of_rays.x += double(ray.weight.a * x), of_rays.y += double(ray.weight.a * y);
-        of_rays.xx += double(ray.weight.a * x * x), of_rays.yy += double(ray.weight.a * y * y);
-        sum += ray.weight;
+    for (const std::string name : {"double-gauss", "schneider-anamorphic"}) {
+        LensChoice choice;
+        choice.name = name, choice.aperture = {.blades = 6, .rotation_deg = 8};
+        const auto lens = lens_of(choice, mount_of(name, 2.8));
+        const FieldPosition field{0.4, 0.5};
+        const PointSpread s = lens->raw_point_spread(-14, field);
+        Moments of_rays;
+        Rgba sum;
+        for (const PupilRay& ray : lens->rays(1 << 15, field, 1)) {
+            const float x = -14 * ray.x + ray.offset_x_px, y = -14 * ray.y + ray.offset_y_px;
+            of_rays.x += double(ray.weight.a * x), of_rays.y += double(ray.weight.a * y);
+            of_rays.xx += double(ray.weight.a * x * x), of_rays.yy += double(ray.weight.a * y * y);
+            sum += ray.weight;
+        }
+        EXPECT_NEAR(double(sum.r), 1, 1e-4);
+        const Moments m = moments(s);
+        EXPECT_NEAR(m.x, of_rays.x, 0.05) << name;
+        EXPECT_NEAR(m.y, of_rays.y, 0.05) << name;
+        EXPECT_NEAR(m.xx - 1.0 / 12, of_rays.xx, 0.01 * std::max(m.xx, m.yy)) << name;
+        EXPECT_NEAR(m.yy - 1.0 / 12, of_rays.yy, 0.01 * std::max(m.xx, m.yy)) << name;
     }
-    EXPECT_NEAR(double(sum.r), 1, 1e-4);
-    const Moments m = moments(s);
-    EXPECT_NEAR(m.x, of_rays.x, 0.05);
-    EXPECT_NEAR(m.y, of_rays.y, 0.05);
-    EXPECT_NEAR(m.xx - 1.0 / 12, of_rays.xx, 0.01 * m.xx);
-    EXPECT_NEAR(m.yy - 1.0 / 12, of_rays.yy, 0.01 * m.yy);
+}
+
+TEST(TracedModel, CylindersInFrontMakeUprightOvals) {
+    const auto lens = traced("schneider-anamorphic", 4);
+    for (const double radius : {-30.0, 30.0}) {
+        const Moments disc = moments(lens->point_spread(radius, {}));
+        EXPECT_NEAR(disc.x, 0, 0.05);
+        EXPECT_NEAR(disc.y, 0, 0.05);
+        EXPECT_NEAR(std::sqrt(disc.yy), 15, 0.6) << radius;  // half the radius, of an even disc
+        EXPECT_NEAR(std::sqrt(disc.yy / disc.xx), 1.92, 0.1) << radius;
+    }
+}
+
+TEST(TracedModel, QuartersOfAPictureThroughCylindersMirrorEachOther) {
+    const auto lens = traced("schneider-anamorphic", 2.8);
+    const FieldPosition field{0.7, 0.35};
+    const PointSpread first = lens->raw_point_spread(14, field);
+    for (const int sx : {1, -1})
+        for (const int sy : {1, -1}) {
+            const PointSpread other = lens->raw_point_spread(14, {sx * field.x, sy * field.y});
+            double most = 0;
+            for (int y = first.extent.y0; y < first.extent.y1; ++y)
+                for (int x = first.extent.x0; x < first.extent.x1; ++x)
+                    most = std::max(most, std::abs(double(weight_at(first, x, y).g) -
+                                                   double(weight_at(other, sx * x, sy * y).g)));
+            EXPECT_LT(most, 0.02 * brightest(first)) << sx << " " << sy;
+        }
+    // Turning the field does not turn the disc.
+    EXPECT_GT(largest_difference(lens->raw_point_spread(14, {0.5, 0}), lens->raw_point_spread(14, {0, 0.5})),
+              0.3 * brightest(first));
 }
 
 TEST(TracedModel, NothingLandsBeyondItsReach) {
