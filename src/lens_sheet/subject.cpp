@@ -1,8 +1,10 @@
 #include "lens_sheet/subject.h"
 
+#include "kernel/draw/mesh_kernel.h"
 #include "kernel/draw/ring_kernel.h"
 #include "kernel/lenses/make_lens.h"
 #include "kernel/lenses/opened_lens.h"
+#include "kernel/model/gamut.h"
 #include "lens_sheet/light.h"
 #include "optics/aberrations.h"
 
@@ -75,8 +77,9 @@ AxialBands Axial::bands(int count) const {
 }
 
 std::function<double(double)> Axial::height_um(double wavelength_nm, double coc_um) const {
-    return [landing = lens_->landing(wavelength_nm, coc_um, {}), open = open_](double rho) {
-        return landing({rho * open, 0}).x;
+    return [landing = lens_->landing(wavelength_nm, coc_um, {}), open = open_,
+            round = lens_->is_round()](double rho) {
+        return round ? landing({rho * open, 0}).x : landing({0, rho * open}).y;
     };
 }
 
@@ -86,11 +89,35 @@ double Axial::reach_um(double coc_um) const {
         const auto height = height_um(nm, coc_um);
         for (int i = 0; i <= kZones; ++i)
             reach = std::max(reach, std::abs(height(std::sqrt(double(i) / kZones))));
+        if (lens_->is_round()) continue;
+        const auto landing = lens_->landing(nm, coc_um, {});
+        for (int i = 0; i <= kZones; ++i)
+            reach = std::max(reach, std::abs(landing({open_ * std::sqrt(double(i) / kZones), 0}).x));
     }
     return reach;
 }
 
+kernel::PointSpread Axial::oval(double coc_um, double um_per_px) const {
+    constexpr int kOvalSlices = 31;
+    const double size_px = reach_um(coc_um) / um_per_px;
+    kernel::MeshPupil pupil;
+    pupil.outline = kernel::subdivided(lens_->pupil_outline({}, kernel::mesh_tolerance(size_px)),
+                                       kernel::mesh_step(size_px));
+    pupil.rings = kernel::mesh_rings(size_px);
+    std::vector<kernel::MeshBand> bands;
+    for (const colour::SpectralBand& slice : slices(kOvalSlices))
+        bands.push_back({{slice.r, slice.g, slice.b},
+                         [landing = lens_->landing(slice.wavelength_nm, coc_um, {}), um_per_px](
+                             std::span<const Point> points, Point* landed) {
+                             for (const Point& p : points) *landed++ = (1 / um_per_px) * landing(p);
+                         }});
+    kernel::PointSpread disc = kernel::mesh_kernel(pupil, bands);
+    kernel::map_into_gamut(disc);
+    return disc;
+}
+
 kernel::PointSpread Axial::disc(double coc_um, double um_per_px) const {
+    if (!lens_->is_round()) return oval(coc_um, um_per_px);
     const auto rings = ring_bands(bands_, coc_um, um_per_px);
     return kernel::ring_kernel(rings, reach_of(rings), kernel::RingColours::InGamut);
 }

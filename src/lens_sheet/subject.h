@@ -32,7 +32,8 @@ struct AxialBand {
 };
 using AxialBands = std::vector<AxialBand>;
 
-// The axis of a lens behind a round aperture: every disc is a set of rings. Lengths in micrometres.
+// The axis of a lens behind a round aperture: every disc is a set of rings, or of ovals if the lens has
+// cylinders, whose heights are those in the vertical plane. Lengths in micrometres.
 class Axial {
 public:
     explicit Axial(RayLens lens_in_um);
@@ -48,6 +49,8 @@ public:
     kernel::PointSpread disc(double coc_um, double um_per_px) const;
 
 private:
+    kernel::PointSpread oval(double coc_um, double um_per_px) const;
+
     RayLens lens_;
     double open_ = 1;  // radius of the stop that the rims leave open
     AxialBands bands_;
