@@ -1,7 +1,7 @@
 """The sample set: the night scene through many lenses, with discs in front of focus and behind, large and small, and coma.
 
 Usage: sample_set.py PROGRAM FOLDER [--docs]. Leaves one PNG per lens (its pictures side by side), the whole scene through
-five lenses (night-NAME.png), and index.html in FOLDER; with --docs, small pictures with few codes and no page, for
+six lenses (night-NAME.png), and index.html in FOLDER; with --docs, small pictures with few codes and no page, for
 docs/pictures/samples. `./dev samples` runs it.
 """
 import html
@@ -17,8 +17,9 @@ FOCAL_LENGTH = "240mm"
 # Name, where the lens is focused, and more flags. Lamps stand 15 to 240 m away.
 SHOTS = [("large, behind focus", "6m", []), ("small, behind", "20m", []), ("large, in front", "240m", []),
          ("small, in front", "45m", []), ("coma", "20m", ["--coma", "3"])]
-NIGHTS = ["ideal", "uncorrected", "doublet", "petzval-portrait", "double-gauss"]
-TRACED = ["petzval-laikin", "petzval-portrait", "triplet-cooke", "double-gauss", "takumar", "angenieux"]
+NIGHTS = ["ideal", "uncorrected", "doublet", "petzval-portrait", "double-gauss", "schneider-anamorphic"]
+TRACED = ["petzval-laikin", "petzval-portrait", "triplet-cooke", "double-gauss", "takumar", "angenieux",
+          "schneider-anamorphic"]
 
 
 def run(program, *words):
