@@ -61,9 +61,12 @@ Status check_motion(const ShotRunSettings& of_frame) {
     const auto header = read_frame_header(source.path, source.read);
     if (!header) return Done{};  // said when it is read
     const FoundCamera camera = merged_camera(header->camera, source.camera);
-    if (camera.camera_from_world && camera.focal_length_mm && camera.sensor_width_mm) return Done{};
+    const bool is_named = !of_frame.motion.layer.empty();
+    if (!is_named && camera.camera_from_world && camera.focal_length_mm && camera.sensor_width_mm)
+        return Done{};
     source.read.need_depth = false, source.read.layers.clear();
     const auto frame = read_frame(source.path, source.read);
+    if (!frame && is_named && frame.error().field == "read.motion.layer") return frame.error();
     if (!frame || !frame->motion.empty()) return Done{};
     const bool has_matrix = camera.camera_from_world.has_value();
     return Error{

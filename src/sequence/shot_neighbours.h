@@ -42,7 +42,7 @@ private:
 };
 
 // Errors: InvalidArgument where the frame has neither a camera nor vectors, by which its neighbours could be
-// moved.
+// moved, or not the layer of vectors that is named.
 Status check_motion(const ShotRunSettings& of_frame);
 
 }  // namespace petzval::sequence

@@ -91,8 +91,8 @@ class SeenElsewhere(CommandLineTest):
         self.write_passing_cards(4, range(5), "flow", -2)
         self.assertEqual(self.behind_the_post("scaled", "--temporal", "2", "--motion", "flow", "--motion-scale=-2,2")["pixels"], by_vectors)
         self.assertTrue(self.result("scaled.0002.exr") == self.result("vectors.0002.exr"))
-        none = self.behind_the_post("none", "--temporal", "2", "--motion", "speed")["left_out"]
-        self.assertTrue(none and all("no layer 'speed' with" in line for line in none), none)
+        self.refuse(2, "defocus", "in.####.exr", "-o", "no.####.exr", "--temporal", "2", "--motion", "speed",
+                    says=["in.0000.exr", "no layer 'speed' with", "flow"])
 
     def test_what_moves_by_itself_without_vectors_is_no_worse_than_alone(self):
         self.write_passing_cards(4, range(5))
