@@ -1,5 +1,5 @@
-// Broken promises between our own functions stop the program and show what does not hold; bad input never
-// comes here.
+// An internal error, which is a condition between our own functions that does not hold, stops the program and
+// shows the condition. Bad input never leads here.
 #pragma once
 
 #include <cstdio>
@@ -9,7 +9,7 @@
 #define PETZVAL_CHECK(condition)                                                                            \
     do {                                                                                                    \
         if (!(condition)) {                                                                                 \
-            std::fprintf(stderr, "petzval: broken promise at %s:%d: %s\n", __FILE__, __LINE__, #condition); \
+            std::fprintf(stderr, "petzval: internal error at %s:%d: %s\n", __FILE__, __LINE__, #condition); \
             std::abort();                                                                                   \
         }                                                                                                   \
     } while (false)

@@ -115,7 +115,7 @@ const optics::GlassCatalogue& glass_catalogue() {
         if (!glasses) {
             std::fprintf(stderr, "petzval: lenses/glasses.json as compiled in: %s\n",
                          (json ? glasses.error() : json.error()).message.c_str());
-            std::abort();  // a broken promise of the build, not of the user
+            std::abort();  // an error of the build, not of the user
         }
         return std::move(*glasses);
     }();

@@ -31,7 +31,7 @@ class ShortMemory(CommandLineTest):
                 self.assertIn(outcome.code, ended, where)
                 ended[outcome.code] += 1
                 self.assertEqual(len(outcome.lines), outcome.code, where)
-                self.assertNotIn("broken promise", outcome.err)
+                self.assertNotIn("internal error", outcome.err)
                 left = [n for n in os.listdir(self.folder) if n.endswith(".unfinished")]
                 self.assertEqual(left, [], where)
         self.assertGreater(ended[0], 2)

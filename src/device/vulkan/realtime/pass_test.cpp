@@ -75,7 +75,7 @@ TEST(Watched, WhatIsSaidAfterTheLastFrameEndsTheProcess) {
         VkFence fence = VK_NULL_HANDLE;
         context->vk().vkCreateFence(context->handle(), &info, nullptr, &fence);
     };
-    EXPECT_DEATH(leave_a_fence_behind(), "vkDestroyDevice.*broken promise");
+    EXPECT_DEATH(leave_a_fence_behind(), "vkDestroyDevice.*internal error");
 }
 
 // A picture with something before and behind focus, and a lamp.
