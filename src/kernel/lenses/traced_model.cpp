@@ -23,7 +23,8 @@ constexpr int kOutlineCorners = 96;       // of what the rims leave open
 constexpr double kTraced_nm[] = {420, 455, 495, 540, 590, 640, 690};
 // The nearer object: its radius, of the pupil's.
 constexpr double kNearCoc = 0.2;
-// The same with cylinders, whose two pupils stand apart: near objects are squeezed less than farther ones.
+// The same with cylinders, whose two pupils stand apart, so that the shape of ovals changes with the
+// distance. They are those of an object at infinity, as lamps are, if that is at least as far out of focus.
 constexpr double kNearCocOfCylinders = 0.02;
 constexpr int kRayBands = 62;
 constexpr double kRayWidth =
@@ -181,6 +182,11 @@ void TracedModel::place_near_object(const optics::TracedLens& lens) {
     const double nearest_mm =
         std::max(0.0, lens.first_order().entrance_pupil_position_mm) + 0.5 * mount_.camera.focal_length_mm;
     const double near_coc = has_cylinders_ ? kNearCocOfCylinders : kNearCoc;
+    if (has_cylinders_ && coc_at_infinity_mm_ >= near_coc * pupil_mm) {
+        near_distance_mm_ = std::numeric_limits<double>::infinity();
+        near_coc_mm_ = coc_at_infinity_mm_;
+        return;
+    }
     const double vergence = std::min(in_focus + near_coc * pupil_mm / per_vergence, 1 / nearest_mm);
     if (!(vergence > in_focus)) return;
     near_distance_mm_ = 1 / vergence;

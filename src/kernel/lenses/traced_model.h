@@ -104,7 +104,7 @@ private:
     double px_per_mm_ = 0, image_slope_ = 1;
     ThirdOrder added_;  // mm
     double near_distance_mm_ = 0,
-           near_coc_mm_ = 0;  // of the nearer object, its radius on the sensor; 0: none
+           near_coc_mm_ = 0;  // of the object out of focus, its radius on the sensor; 0: none
     double coc_at_infinity_mm_ = 0;
     std::vector<double> wavelength_nm_;
     bool has_cylinders_ = false;
