@@ -74,8 +74,8 @@ TEST(Axial, TableAgreesWithTheLens) {
 }
 
 TEST(Axial, DiscIsTheLensesOwnKernel) {
-    // The rings of the page against the kernel that engines use, on one lens of each kind.
-    for (const char* name : {"doublet", "double-gauss"}) {
+    // The rings and ovals of the page against the kernel that engines use, on one lens of each kind.
+    for (const char* name : {"doublet", "double-gauss", "schneider-anamorphic"}) {
         const Subject subject = subject_of(name);
         const double coc_um = 3 * subject.blur_um(), um_per_px = coc_um / 20;
         const auto ours = subject.axis().disc(coc_um, um_per_px);

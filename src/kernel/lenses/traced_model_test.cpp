@@ -350,6 +350,16 @@ TEST(TracedModel, CylindersInFrontMakeUprightOvals) {
     }
 }
 
+TEST(TracedModel, OvalsAreThoseOfLampsFarAway) {
+    LensChoice choice;
+    choice.name = "schneider-anamorphic";
+    Mount mount = mount_of(choice.name, 4);
+    mount.camera.focus_distance_m = 2;
+    const Moments disc = moments(lens_of(choice, mount)->point_spread(30, {}));
+    // An object slightly in front of the focus would make 1.62 of it.
+    EXPECT_NEAR(std::sqrt(disc.yy / disc.xx), 1.69, 0.03);
+}
+
 TEST(TracedModel, QuartersOfAPictureThroughCylindersMirrorEachOther) {
     const auto lens = traced("schneider-anamorphic", 2.8);
     const FieldPosition field{0.7, 0.35};
