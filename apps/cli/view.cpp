@@ -1,18 +1,11 @@
-// petzval view: a window. apps/view draws it; this file holds its flags and the services it needs: command
-// lines, frames written like those of defocus, OpenColorIO.
-#include "petzval/lens_facts.h"
-#include "petzval/reports/words.h"
+// petzval view: a window. apps/view draws it; this file holds its flags.
 #include "petzval/scene.h"
 
-#include "console/console.h"
-#include "defocus_frames.h"
 #include "flags/defocus_flags.h"
 #include "flags/fields.h"
 #include "flags/look_rows.h"
 #include "verbs.h"
 
-#include <algorithm>
-#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -48,63 +41,6 @@ Result<int> parse_port(const std::string& text) {
 
 #ifdef PETZVAL_VIEW
 
-void add_number(std::vector<std::string>& words, const char* flag, const std::optional<double>& value) {
-    if (value) words.insert(words.end(), {flag, plain(*value, 9)});
-}
-
-// The files as typed, unless others were chosen in the window.
-std::vector<std::string> input_words(const ViewFlags& flags, const view::InputChoice& input) {
-    if (input == view::input_of(flags.input.source())) return flags.files;
-    std::vector<std::string> words{input.path};
-    const auto add = [&](const char* flag, const std::string& text) {
-        if (!text.empty()) words.insert(words.end(), {flag, text});
-    };
-    add("--layer", input.layer);
-    add("--view-name", input.view_name);
-    add("--depth", input.depth_file);
-    add("--depth-channel", input.depth_channel);
-    if (input.depth_kind) add("--depth-kind", name_of(*input.depth_kind));
-    if (input.depth_near && input.depth_far)
-        add("--depth-range", plain(*input.depth_near, 9) + "," + plain(*input.depth_far, 9));
-    if (input.unit_scale_m != 1) add_number(words, "--unit-scale", input.unit_scale_m);
-    return words;
-}
-
-std::vector<std::string> command_words(const ViewFlags& flags, const view::Choice& choice,
-                                       const std::string& output) {
-    std::vector<std::string> words{"petzval", "defocus"};
-    for (const std::string& word : input_words(flags, choice.input))
-        words.push_back(choice.frame ? at_frame(word, *choice.frame) : word);
-    words.insert(words.end(), {"-o", output});
-    if (flags.device != "cpu") words.insert(words.end(), {"--device", flags.device});
-    add_number(words, "--fstop", choice.camera.f_number);
-    if (!choice.camera.f_number) add_number(words, "--aperture-diameter", choice.camera.aperture_diameter_mm);
-    add_number(words, "--focus", choice.camera.focus_distance_m);
-    add_number(words, "--focal-length", choice.camera.focal_length_mm);
-    add_number(words, "--sensor-width", choice.camera.sensor_width_mm);
-    if (choice.camera.image_scale != ImageScale::Rendered)
-        words.insert(words.end(),
-                     {"--breathing", choice.camera.image_scale == ImageScale::ThinLens ? "on" : "off"});
-    for (std::string& word : words_of(choice.look)) words.push_back(std::move(word));
-    if (!output.ends_with(".png")) return words;
-    if (choice.ocio) {
-        words.insert(words.end(), {"--ocio", flags.ocio.view});
-        if (!flags.ocio.space.empty()) words.insert(words.end(), {"--ocio-space", flags.ocio.space});
-    } else {
-        words.insert(words.end(), {"--tone", name_of(choice.develop.tone)});
-        if (choice.develop.contrast != 1) add_number(words, "--contrast", choice.develop.contrast);
-    }
-    if (choice.develop.exposure_stops != 0) add_number(words, "--exposure", choice.develop.exposure_stops);
-    return words;
-}
-
-std::string command_line(const ViewFlags& flags, const view::Choice& choice, const std::string& output) {
-    std::string line;
-    for (const std::string& word : command_words(flags, choice, output))
-        line += (line.empty() ? "" : " ") + shell_word(word);
-    return line;
-}
-
 std::vector<view::FieldRow> field_rows() {
     std::vector<view::FieldRow> rows;
     for (const LookRow& row : look_rows()) {
@@ -120,75 +56,28 @@ std::vector<view::FieldRow> field_rows() {
     return rows;
 }
 
-Result<Picture> ocio_codes(const OcioFlags& flags, View<const Rgba> light) {
-    Picture copy = Picture::uninitialised(light.width(), light.height());
-    for (int y = 0; y < light.height(); ++y) std::copy_n(light.row(y), light.width(), copy.row(y));
-    DevelopSettings settings;
-    std::string used;
-    std::vector<std::string> warnings;
-    if (Status done = flags.show(copy, settings, used, warnings); !done) return done.error();
-    return copy;
-}
-
-// With the widest aperture of the lens as a number, where --fstop open asks for it.
-Result<CameraFlags> camera_of(const ViewFlags& flags) {
-    CameraFlags camera = flags.camera;
-    if (!camera.choice().wide_open) return camera;
-    const auto lens = Lens::open(flags.look.look().lens);
-    if (!lens) return lens.error();
-    const auto widest = widest_f_number(*lens);
-    if (!widest) return widest.error();
-    camera.f_number = *widest;
-    return camera;
-}
-
 Status open_window(const ViewFlags& flags) {
     if (flags.ocio.is_on())
         if (Status fine = flags.ocio.try_out(); !fine) return fine;
+    // A picture that is saved has no bar on the terminal.
+    DefocusFlags quiet = static_cast<const DefocusFlags&>(flags);
+    quiet.run.progress = ProgressMode::Off;
+    quiet.output = "out.exr";  // of the example in a message
     view::Setup setup;
+    setup.run = quiet.settings();
+    setup.host = picture_host(quiet);
+    setup.session_settings = flags.session();
+    setup.typed_files = flags.files;
     setup.scene = flags.scene;
-    setup.choice.scene_camera = flags.scene_camera;
+    setup.scene_camera = flags.scene_camera;
     if (flags.scene_size)
         setup.scene_width = flags.scene_size->first, setup.scene_height = flags.scene_size->second;
-    const auto camera = camera_of(flags);
-    if (!camera) return camera.error();
-    setup.source = flags.input.source(*camera);
-    setup.source.lights = flags.points;
-    setup.choice.camera = camera->choice();
-    setup.choice.look = flags.look.look();
-    setup.choice.develop = flags.develop.settings(false, flags.input.transfer, flags.run.threads);
-    setup.choice.develop.dither = false;  // the same codes wherever a part of it begins
-    setup.choice.ocio = flags.ocio.is_on();
-    setup.tone_is_chosen = flags.develop.tone.has_value();
-    setup.focus_at = flags.focus.focus_at;
-    setup.focus_point = flags.focus.focus_point;
-    setup.permissible_radius_px = flags.focus.permissible_radius_px.value_or(1);
     setup.against = flags.against;
     setup.script = flags.script;
     setup.listen_port = flags.listen.value_or(0);
     setup.scale = flags.scale.value_or(0);
     if (flags.size) setup.width = flags.size->first, setup.height = flags.size->second;
     setup.fields = field_rows();
-    for (const std::string& file : files_of(flags.input)) setup.files.reads(file);
-    for (const std::string& file : {flags.points, flags.against, flags.script}) setup.files.reads(file);
-    for (const std::string& file : files_of(flags.look.look())) setup.files.reads(file);
-    setup.session = std::make_shared<Session>(flags.session());
-    if (flags.device != "cpu") {
-        SessionSettings settings = flags.session();
-        settings.device = "cpu";
-        setup.cpu_session = std::make_shared<Session>(settings);
-    }
-    setup.command_line = [&](const view::Choice& choice, const std::string& output) {
-        return command_line(flags, choice, output);
-    };
-    // A picture that is saved has no bar on the terminal.
-    DefocusFlags quiet = static_cast<const DefocusFlags&>(flags);
-    quiet.run.progress = ProgressMode::Off;
-    quiet.output = "out.exr";  // of the example in a message
-    setup.run = quiet.settings();
-    setup.host = picture_host(quiet);
-    if (flags.ocio.is_on())
-        setup.ocio_codes = [&](View<const Rgba> light) { return ocio_codes(flags.ocio, light); };
     return view::run(setup);
 }
 

@@ -1,5 +1,5 @@
 // The window of `petzval view`: what it is given, and the door to it. Below this line it knows
-// include/petzval/ alone; command lines are handed to it.
+// include/petzval/ alone; the table of look flags is handed to it.
 #pragma once
 
 #include "petzval/develop.h"
@@ -53,36 +53,32 @@ struct Choice {
 };
 
 struct Setup {
-    ShotSource source;
-    std::string scene;  // a built-in scene in place of files; its source.path is only what it is called
-    int scene_width = 480, scene_height = 270, scene_frames = 1;
-    std::vector<int> frames;  // filled by run()
-    Choice choice;
-    std::optional<PixelPosition> focus_at;
-    std::optional<WorldPoint> focus_point;
-    double permissible_radius_px = 1;
-    bool tone_is_chosen = false;  // false: that of the file's kind
-    std::string against;          // a picture to compare with; empty: none
-    int listen_port = 0;          // for pictures that are pushed (tev.h); 0: none
-    std::string script;           // a file of commands; empty: a hand
+    // Settings of a frame that is saved, before the choices made in the window, and callbacks while it is
+    // made, by another thread than the window's. host.to_display also shows OpenColorIO's displays in the
+    // window.
+    ShotRunSettings run;
+    ShotRunHost host;
+    std::vector<std::string> typed_files;  // words of a command line that name the files of run.source
+    std::string scene;  // a built-in scene in place of files; run.source.path is only what it is called
+    std::string scene_camera;
+    int scene_width = 480, scene_height = 270;
+    std::string against;  // a picture to compare with; empty: none
+    int listen_port = 0;  // for pictures that are pushed (tev.h); 0: none
+    std::string script;   // a file of commands; empty: a hand
     int width = 1280, height = 800;
     double scale = 0;  // of letters and lines; 0: the display's
     std::vector<FieldRow> fields;
-    std::shared_ptr<Session> session;
-    std::shared_ptr<Session>
-        cpu_session;  // to compare with, where the session's device is another; else null
-    // The command that makes this frame as that file.
-    std::function<std::string(const Choice&, const std::string& output)> command_line;
-    // Settings of a picture that is saved, before the choices made in the window, and callbacks while it is
-    // made, by another thread than the window's.
-    ShotRunSettings run;
-    ShotRunHost host;
+    SessionSettings session_settings;
+
+    // Filled by run().
+    Choice choice;  // the first
+    std::vector<int> frames;
+    int scene_frames = 1;
+    // cpu_session: to compare with, where the session's device is another; else null.
+    std::shared_ptr<Session> session, cpu_session;
     // Pictures, lenses and the rest that the command line names: nothing that is saved may replace one.
     RunFiles files;
-    // Exposed scene-linear light to a display's codes by OpenColorIO; null: not asked for.
-    std::function<Result<Picture>(View<const Rgba>)> ocio_codes;
-    // Filled by run() for the scene hexadrive: makes a second OpenGL context current on the calling thread,
-    // or releases it.
+    // For the scene hexadrive: makes a second OpenGL context current on the calling thread, or releases it.
     std::function<void(bool current)> gl_context = {};
 };
 

@@ -4,7 +4,7 @@
 #include "commands.h"
 #include "lens_panel.h"
 #include "panels.h"
-#include "save.h"
+#include "prepare.h"
 #include "script.h"
 #include "texture.h"
 #include "view.h"
@@ -128,7 +128,8 @@ public:
         glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 2);
         glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
         glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-        const std::string title = setup.source.path.empty() ? "petzval" : setup.source.path + " - petzval";
+        const std::string title =
+            setup.run.source.path.empty() ? "petzval" : setup.run.source.path + " - petzval";
         window_ = glfwCreateWindow(setup.width, setup.height, title.c_str(), nullptr, nullptr);
         if (!window_) return no_window("no OpenGL 3.2");
         glfwMakeContextCurrent(window_);
@@ -374,7 +375,7 @@ Status run(const Setup& setup) {
         script = std::move(*read);
     }
     Setup complete = setup;
-    if (Status found = find_frames(complete); !found) return found;
+    if (Status ready = prepare(complete); !ready) return ready;
     Window window;
     if (Status open = window.open(setup); !open) return open;
     if (setup.scene == "hexadrive") complete.gl_context = window.second_context();

@@ -1,8 +1,6 @@
 #include "flags/look_rows.h"
 
 #include "petzval/defocus.h"
-#include "petzval/look_check.h"
-#include "petzval/look_json.h"
 #include "petzval/names.h"
 
 #include "flags/values.h"
@@ -291,34 +289,8 @@ std::string typed(const Json& value) {
     return text;
 }
 
-const Json& at_path(const Json& look, const std::string& path) {
-    const std::size_t dot = path.find('.');
-    return dot == std::string::npos ? look[path] : look[path.substr(0, dot)][path.substr(dot + 1)];
-}
-
 }  // namespace
 
 std::string typed_text(const std::string& json) { return typed(Json::parse(json)); }
-
-std::vector<std::string> words_of(const Look& look) {
-    const Json now = Json::parse(look_to_json(look)), unset = Json::parse(look_to_json(Look{}));
-    std::vector<std::string> words, idle;
-    for (const Error& one : check(look).idle) idle.push_back(one.field);
-    for (const LookRow& row : look_rows()) {
-        const std::string field = row.field;
-        const Json &value = at_path(now, field), &other = at_path(unset, field);
-        if (value == other) continue;
-        // --focus-shift implies its mode; a mode without effect would be refused.
-        if (field == "lens.focus_mode" && value == "shift") continue;
-        if (std::find(idle.begin(), idle.end(), field) != idle.end()) continue;
-        if (row.placeholder.empty()) {
-            words.push_back(row.flag + std::string(value == true ? "" : "=off"));
-            continue;
-        }
-        words.emplace_back(row.flag);
-        words.push_back(row.placeholder == "off|on" ? (value == true ? "on" : "off") : typed(value));
-    }
-    return words;
-}
 
 }  // namespace petzval::cli

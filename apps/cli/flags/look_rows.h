@@ -25,7 +25,5 @@ const std::vector<LookRow>& look_rows();
 
 // The other way: what is typed for that JSON, so that row.to_json() of it says the same. "" for null.
 std::string typed_text(const std::string& json);
-// The flags, each with its text, that make the defaults this look, as far as there are flags for it.
-std::vector<std::string> words_of(const Look& look);
 
 }  // namespace petzval::cli

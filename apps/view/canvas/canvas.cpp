@@ -98,7 +98,7 @@ void draw_legend(const App& app) {
         std::string text;
     } entries[] = {{IM_COL32(43, 143, 224, 255), "near"},
                    {app.state.overlay ? IM_COL32(255, 255, 255, 255) : IM_COL32(0, 0, 0, 255),
-                    "in focus: radius under " + text_of(app.setup().permissible_radius_px, 3) + " px"},
+                    "in focus: radius under " + text_of(app.setup().run.permissible_radius_px, 3) + " px"},
                    {IM_COL32(243, 156, 18, 255), "far"}};
     float y = bottom;
     for (const auto& entry : entries) {

@@ -120,24 +120,17 @@ void put_codes(const std::vector<std::uint16_t>& rgb, Print& print) {
         for (std::size_t c = 0; c < 3; ++c) print.rgba[4 * i + c] = std::uint8_t(rgb[3 * i + c]);
 }
 
-void print_light(const Negative& of, const Rect& part, const Darkroom::OcioCodes& ocio_codes, Print& print) {
+void print_light(const Negative& of, const Rect& part, const Darkroom::ToDisplay& to_display, Print& print) {
     Picture light = reduced(*of.picture, part, of.reduce);
     print.width = light.width(), print.height = light.height();
     isolate(light, of.channel);
     DevelopSettings settings = of.develop;
     if (of.channel == Channel::Alpha)  // coverage is not light
         settings.exposure_stops = 0, settings.tone = ToneCurve::None, settings.transfer = Transfer::Linear;
-    if (of.ocio && ocio_codes && of.channel != Channel::Alpha) {
-        const float exposure = float(std::exp2(settings.exposure_stops));
-        for (std::size_t i = 0; i < light.size(); ++i) light.pixels()[i] *= exposure;
-        auto codes = ocio_codes(light);
-        if (!codes) {
-            print.error = codes.error();
-        } else {
-            light = std::move(*codes);
-            settings.exposure_stops = 0, settings.tone = ToneCurve::None,
-            settings.transfer = Transfer::Linear;
-        }
+    if (of.ocio && to_display && of.channel != Channel::Alpha) {
+        std::string used;
+        std::vector<std::string> warnings;
+        if (Status shown = to_display(light, settings, used, warnings); !shown) print.error = shown.error();
     }
     put_codes(develop(light, settings), print);
     if (of.panels) paint_numbers(of, print);
@@ -156,7 +149,7 @@ bool Negative::operator==(const Negative& o) const {
            ocio == o.ocio && channel == o.channel;
 }
 
-Print developed(const Negative& negative, const Darkroom::OcioCodes& ocio_codes) {
+Print developed(const Negative& negative, const Darkroom::ToDisplay& to_display) {
     Print print;
     print.of = negative;
     const Rect part = negative.part.moved(-negative.area.x0, -negative.area.y0);
@@ -164,14 +157,14 @@ Print developed(const Negative& negative, const Darkroom::OcioCodes& ocio_codes)
         print.width = negative.codes->width, print.height = negative.codes->height,
         put_codes(negative.codes->rgb, print);
     else if (negative.numbers == Numbers::Light)
-        print_light(negative, part, ocio_codes, print);
+        print_light(negative, part, to_display, print);
     else
         print_numbers(negative, part, print);
     return print;
 }
 
-Darkroom::Darkroom(OcioCodes ocio_codes, std::function<void()> wake)
-    : ocio_codes_(std::move(ocio_codes)), wake_(std::move(wake)), thread_([this] { work(); }) {}
+Darkroom::Darkroom(ToDisplay to_display, std::function<void()> wake)
+    : to_display_(std::move(to_display)), wake_(std::move(wake)), thread_([this] { work(); }) {}
 
 Darkroom::~Darkroom() {
     {
@@ -214,7 +207,7 @@ void Darkroom::work() {
         lock.unlock();
         Print print;
         try {
-            print = developed(negative, ocio_codes_);
+            print = developed(negative, to_display_);
         } catch (const std::bad_alloc&) {
             print.of = negative;
             print.error = Error{ErrorCode::OutOfMemory, "not enough memory to show this picture"};

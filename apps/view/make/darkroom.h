@@ -5,6 +5,7 @@
 #include "petzval/develop.h"
 #include "petzval/engine_report.h"
 #include "petzval/image.h"
+#include "petzval/shot_run.h"
 
 #include "state.h"
 
@@ -61,10 +62,10 @@ struct Print {
 
 class Darkroom {
 public:
-    using OcioCodes = std::function<Result<Picture>(View<const Rgba>)>;
+    using ToDisplay = decltype(ShotRunHost::to_display);
     static constexpr std::size_t kTargets = 5;
 
-    Darkroom(OcioCodes ocio_codes, std::function<void()> wake);
+    Darkroom(ToDisplay to_display, std::function<void()> wake);
     ~Darkroom();
     Darkroom(const Darkroom&) = delete;
     Darkroom& operator=(const Darkroom&) = delete;
@@ -77,7 +78,7 @@ public:
 private:
     void work();
 
-    OcioCodes ocio_codes_;
+    ToDisplay to_display_;
     std::function<void()> wake_;
     mutable std::mutex mutex_;
     std::condition_variable something_;
@@ -88,6 +89,6 @@ private:
 };
 
 // Develops on the calling thread.
-Print developed(const Negative& negative, const Darkroom::OcioCodes& ocio_codes);
+Print developed(const Negative& negative, const Darkroom::ToDisplay& to_display);
 
 }  // namespace petzval::view

@@ -1,11 +1,7 @@
 #include "save.h"
 
 #include "petzval/display_files.h"
-#include "petzval/frames.h"
-#include "petzval/scene.h"
 
-#include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace petzval::view {
@@ -40,25 +36,6 @@ Status save_picture(Session& session, const Setup& setup, const Choice& choice, 
     Error error = done.error();
     if (host.in_words) error.message = host.in_words(error.message);
     return error;
-}
-
-Status find_frames(Setup& setup) {
-    if (!setup.scene.empty()) {
-        constexpr int kFewest = 48;
-        for (const SceneSummary& known : scene_list())
-            if (known.name == setup.scene) setup.scene_frames = known.frames;
-        setup.frames.resize(std::size_t(std::max(kFewest, setup.scene_frames)));
-        std::iota(setup.frames.begin(), setup.frames.end(), 0);
-        return Done{};
-    }
-    const auto pattern = FramePattern::find(setup.source.path);
-    if (!pattern) return pattern.error();
-    if (!*pattern) return Done{};
-    const auto there = (*pattern)->frames_there();
-    if (!there) return there.error();
-    if (there->empty()) return Error{ErrorCode::InvalidFile, setup.source.path + ": no frame exists"};
-    setup.frames = *there;
-    return Done{};
 }
 
 }  // namespace petzval::view

@@ -13,9 +13,4 @@ Result<ShotRunSettings> settings_to_save(ShotRunSettings settings, const Choice&
 // Errors: those of kind_of_output() and make_picture(), in the words of the host.
 Status save_picture(Session& session, const Setup& setup, const Choice& choice, const std::string& output);
 
-// Fills the frames: of the source those that exist, where its name holds a place for a number; of a built-in
-// scene its own, and 48 at least: the camera may move where the scene stands still. Errors: InvalidFile if no
-// frame exists.
-Status find_frames(Setup& setup);
-
 }  // namespace petzval::view

@@ -129,7 +129,7 @@ void depth_panel(App& app) {
     is_field(app, "depth histogram");
     const auto camera = app.camera();
     const auto limits = camera ? focus_limits(*camera, app.shot()->shot.place.display_window.width(),
-                                              app.setup().permissible_radius_px)
+                                              app.setup().run.permissible_radius_px)
                                : Result<FocusLimits>(camera.error());
     drag_focus(app, scale);
     ImGui::GetWindowDrawList()->AddRectFilled(scale.from, scale.to, IM_COL32(25, 25, 25, 255));
@@ -143,7 +143,7 @@ void depth_panel(App& app) {
     if (limits)
         ImGui::TextWrapped(
             "sharp (radius under %.3g px): %.4g m to %s; hyperfocal %.4g m",
-            app.setup().permissible_radius_px, limits->near_m,
+            app.setup().run.permissible_radius_px, limits->near_m,
             std::isinf(limits->far_m) ? "infinity" : (text_of(limits->far_m, 4) + " m").c_str(),
             limits->hyperfocal_m);
 }

@@ -97,7 +97,7 @@ void shelf_panel(App& app) {
         if (is_clicked && !ImGui::GetIO().KeyCtrl) run_line(app, "set lens " + lens.name);
         if (is_clicked && ImGui::GetIO().KeyCtrl && marked.erase(lens.name) == 0) marked.insert(lens.name);
         std::string title = lens.title + (lens.year.empty() ? "" : ", " + lens.year);
-        if (lens.f_number > 0) title = "f/" + text_of(lens.f_number, 3) + "  " + title;
+        if (lens.f_number > 0) title.insert(0, "f/" + text_of(lens.f_number, 3) + "  ");
         std::string known_as;
         for (const std::string& name : lens.names) known_as += (known_as.empty() ? "\nalso " : ", ") + name;
         is_field(app, "lens " + lens.name, title + known_as);
@@ -136,12 +136,12 @@ void display_panel(App& app) {
     is_field(app, "view.tone", "tone curve before sRGB: filmic rolls highlights off, none clips them at 1");
     ImGui::EndDisabled();
     bool ocio = app.state.choice.ocio;
-    ImGui::BeginDisabled(!app.setup().ocio_codes);
+    ImGui::BeginDisabled(!app.setup().host.to_display);
     if (ImGui::Checkbox("OpenColorIO", &ocio)) run_line(app, "toggle view.ocio");
     ImGui::EndDisabled();
     is_field(app, "view.ocio",
-             app.setup().ocio_codes ? "display transform of the OpenColorIO configuration"
-                                    : "start the window with $OCIO or --ocio CONFIG");
+             app.setup().host.to_display ? "display transform of the OpenColorIO configuration"
+                                         : "start the window with $OCIO or --ocio CONFIG");
     light_plot(app);
 }
 

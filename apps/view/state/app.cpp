@@ -37,12 +37,12 @@ Rect Mapping::seen() const {
 App::App(const Setup& setup, const std::function<void()>& wake)
     : setup_(setup),
       wake_(wake),
-      darkroom_(setup.ocio_codes, wake),
+      darkroom_(setup.host.to_display, wake),
       bench_(wake),
       sheet_(setup.cpu_session ? setup.cpu_session : setup.session, wake),
       maker_(setup.session, setup.cpu_session, setup.gl_context, wake) {
     state.choice = setup.choice;
-    state.choice.input = opened_ = input_of(setup.source);
+    state.choice.input = opened_ = input_of(setup.run.source);
     Timeline& line = state.timeline;
     line.frames = setup.frames;
     if (line.is_shot()) {
@@ -67,7 +67,7 @@ App::~App() {
 }
 
 ShotSource App::source() const {
-    ShotSource source = with_input(setup_.source, state.choice.input);
+    ShotSource source = with_input(setup_.run.source, state.choice.input);
     return state.timeline.is_shot() ? at_frame(std::move(source), state.timeline.frame) : source;
 }
 
@@ -93,7 +93,7 @@ void App::use_track(Track track) {
     constexpr int kMostFrames = 100'000;
     Timeline& line = state.timeline;
     if (const Status measured =
-            measure_focus(track, line.frames, with_input(setup_.source, state.choice.input));
+            measure_focus(track, line.frames, with_input(setup_.run.source, state.choice.input));
         !measured)
         return void(error = measured.error().message);
     line.keys.clear(), line.easing = false;
@@ -118,8 +118,8 @@ void App::take_track(int frame) {
     CameraChoice& camera = state.choice.camera;
     if (now.camera.f_number) camera.f_number = now.camera.f_number;
     if (now.camera.focal_length_mm) camera.focal_length_mm = now.camera.focal_length_mm;
-    if (now.focus_pixel) setup_.focus_at = now.focus_pixel;
-    if (now.focus_point) setup_.focus_point = now.focus_point;
+    if (now.focus_pixel) setup_.run.focus_pixel = now.focus_pixel;
+    if (now.focus_point) setup_.run.focus_point = now.focus_point;
     for (const auto& [field, value] : now.look) {
         auto changed = look_with(state.choice.look, field, value);
         if (!changed) return void(error = changed.error().message);
@@ -191,7 +191,7 @@ void App::read_again(bool anew) {
     if (state.choice.input.path.empty()) return;  // nothing has been pushed yet
     reading_ = true;
     opened_ = state.choice.input;
-    Reading reading{source(), false, setup_.focus_point};
+    Reading reading{source(), false, setup_.run.focus_point};
     if (is_live()) {
         reading.scene = scene_wish();
         reading.scene->anew = anew;
@@ -203,7 +203,7 @@ void App::read_again(bool anew) {
     if (setup_.against.empty() || (is_live() && against_)) return;
     ShotSource other;
     other.path = setup_.against;
-    other.read = setup_.source.read;
+    other.read = setup_.run.source.read;
     other.read.layer.clear(), other.read.depth_file.clear(), other.read.depth_channel.clear();
     other.read.need_depth = false;
     maker_.read({other, true});

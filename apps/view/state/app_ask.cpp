@@ -195,7 +195,7 @@ void App::ask_print(int target, Negative negative) {
     negative.part =
         negative.codes ? negative.area
                        : seen.grown(std::max(seen.width(), seen.height()) / 4 + 1).intersected(negative.area);
-    negative.permissible_radius_px = setup_.permissible_radius_px;
+    negative.permissible_radius_px = setup_.run.permissible_radius_px;
     negative.develop = state.choice.develop;
     negative.ocio = state.choice.ocio;
     negative.channel = state.channel;

@@ -46,22 +46,23 @@ void App::take_shot(ReadShot read) {
     shot_ = std::move(read.shot);
     if (state.orbit.is_home()) home_ = shot_->shot.camera_of_file;
     if (shot_->frames > setup_.scene_frames) has_frames(shot_->frames);
-    if (!setup_.tone_is_chosen && shot_->shot.display_referred) state.choice.develop.tone = ToneCurve::None;
+    if (!setup_.run.display.tone && shot_->shot.display_referred) state.choice.develop.tone = ToneCurve::None;
     notice = shot_->shot.warnings.empty() ? "" : shot_->shot.warnings.back();
     if (shot_->shot.depth_plane().empty()) {
         notice = "no depth: the sharp picture is shown; see the panel Input";
         forget_frames();
     }
     if (state.following && shot_->subject_m) state.choice.camera.focus_distance_m = shot_->subject_m;
-    if (setup_.focus_at) {
-        state.pick = *setup_.focus_at;
-        if (const auto depth = depth_near(*setup_.focus_at)) state.choice.camera.focus_distance_m = *depth;
-        setup_.focus_at.reset();
+    if (setup_.run.focus_pixel) {
+        state.pick = *setup_.run.focus_pixel;
+        if (const auto depth = depth_near(*setup_.run.focus_pixel))
+            state.choice.camera.focus_distance_m = *depth;
+        setup_.run.focus_pixel.reset();
     }
-    if (setup_.focus_point) {
+    if (setup_.run.focus_point) {
         if (const auto& focus = shot_->shot.camera.focus_distance_m)
             state.choice.camera.focus_distance_m = focus->value;
-        setup_.focus_point.reset();
+        setup_.run.focus_point.reset();
     }
     for (SideFrames& side : sides_) {  // what was made of the frame before stays until there is something new
         side.wish.reset(), side.radii.reset();

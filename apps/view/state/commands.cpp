@@ -6,6 +6,7 @@
 #include "petzval/output.h"
 
 #include "articles.h"
+#include "command_line.h"
 #include "command_list.h"
 #include "fields.h"
 
@@ -216,7 +217,7 @@ Status save(App& app, const Words& words) {
 }
 Status copy(App& app, const Words&) {
     if (app.shot() && app.shot()->is_pushed) return invalid("a pushed picture has no file; save it first");
-    app.copied = app.setup().command_line(app.full_choice(), "out.exr");
+    app.copied = command_line(app.setup(), app.full_choice(), "out.exr");
     if (app.is_live()) {
         std::string make;
         for (const std::string& word : scene_words(app.scene_wish(), app.setup().scene + ".exr"))
