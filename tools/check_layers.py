@@ -126,6 +126,8 @@ PUBLIC = {
     "track": "sequence",
     "run_files": "sequence",
     "records": "records",
+    "reports/devices": "sequence",
+    "reports/lenses": "sequence",
     "reports/stopwatch": "base",
     "reports/words": "base",
     "display_files": "files",

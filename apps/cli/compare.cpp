@@ -33,7 +33,7 @@ Status compare_pair(const CompareFlags& flags) {
     if (!flags.output.empty() && flags.overwrite.skips({flags.output})) return Done{};
     const auto compared = compare_files(files_of(flags), terminal());
     if (!compared) return compared.error();
-    return tell(comparison_text(*compared), Json::parse(compared->record), flags.run.json);
+    return tell(comparison_text(*compared), compared->record, flags.run.json);
 }
 
 Status compare_frames(const CompareFlags& flags) {

@@ -1,6 +1,7 @@
 // petzval devices: what defocus can draw with.
-#include "petzval/devices.h"
+#include "petzval/reports/devices.h"
 
+#include "console/console.h"
 #include "console/report.h"
 #include "flags/run_flags.h"
 #include "verbs.h"
@@ -11,23 +12,9 @@ namespace petzval::cli {
 namespace {
 
 Status list_devices(const RunFlags& run) {
-    std::string text;
-    Json list = Json::array();
-    for (const DeviceFacts& device : devices()) {
-        text += device.name + "  " + printable(device.title) +
-                (device.is_software ? ", a software driver" : "") +
-                (device.lacks.empty() ? "" : "; missing: " + device.lacks) + "\n";
-        list.push_back({{"name", device.name},
-                        {"title", device.title},
-                        {"software", device.is_software},
-                        {"lacks", device.lacks.empty() ? Json(nullptr) : Json(device.lacks)}});
-    }
-    const std::string missing = why_no_gpu();
-    if (!missing.empty()) text += "no gpu: " + missing + "\n";
-    Json report = new_report("devices");
-    report["devices"] = list;
-    report["no_gpu"] = missing.empty() ? Json(nullptr) : Json(missing);
-    return tell(text, report, run.json);
+    const auto found = devices();
+    const std::string no_gpu = why_no_gpu();
+    return tell(printable(device_list_text(found, no_gpu)), device_list_record(found, no_gpu), run.json);
 }
 
 }  // namespace

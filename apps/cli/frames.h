@@ -4,7 +4,6 @@
 #include "petzval/frame_loop.h"
 #include "petzval/frames.h"
 
-#include "console/report.h"
 #include "flags/flags.h"
 
 #include <functional>

@@ -34,8 +34,7 @@ Status inspect(const InspectFlags& flags) {
     const FrameLoopHost host = terminal();
     const auto seen = inspect_file(file, {.cancelled = host.cancelled});
     if (!seen) return seen.error();
-    return tell(printable(inspection_text(file, *seen, host.in_words)), Json::parse(seen->seen.record),
-                flags.run.json);
+    return tell(printable(inspection_text(file, *seen, host.in_words)), seen->seen.record, flags.run.json);
 }
 
 Status inspect_frames(const InspectFlags& flags) {

@@ -1,12 +1,9 @@
 // petzval: reads the command line, runs one verb, turns its outcome into one line and an exit code.
-#include "petzval/names.h"
-
 #include "console/console.h"
 #include "console/interrupt.h"
 #include "console/last_words.h"
 #include "console/report.h"
 #include "flags/command_line.h"
-#include "flags/fields.h"
 #include "frames.h"
 #include "guard.h"
 
@@ -49,17 +46,6 @@ bool asks_for_json(int argc, const char* const* argv) {
     return false;
 }
 
-// Writes the failure as JSON instead of a report.
-void print_failure(int exit_code, const Error& error, const std::string& verb) {
-    Json report = new_report(verb);
-    if (verb.empty()) report["verb"] = nullptr;
-    report["failure"] = {{"code", name_of(error.code)},
-                         {"message", in_flags(error.message)},
-                         {"field", error.field.empty() ? Json(nullptr) : Json(error.field)},
-                         {"exit_code", exit_code}};
-    static_cast<void>(write_report(report, "-"));  // the line on standard error is written in any case
-}
-
 // Errors: an invalid command line, or the errors of its action.
 Status parse_and_act(int argc, const char* const* argv, Typed& typed) {
     const auto chosen = parsed(argc, argv, typed);
@@ -75,7 +61,8 @@ int run(int argc, const char* const* argv) {
     const Status done = parse_and_act(argc, argv, typed);
     if (done) return 0;
     const int code = exit_code(done.error());
-    if (asks_for_json(argc, argv)) print_failure(code, done.error(), typed.verb);
+    if (asks_for_json(argc, argv))  // the line on standard error is written in any case
+        static_cast<void>(write_record(failure_record(typed.verb, done.error(), code), "-"));
     return fail(code, done.error().message, typed.words);
 }
 

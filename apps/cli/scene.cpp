@@ -153,7 +153,7 @@ void add_list(Verb& scene, Action& chosen) {
     auto run = std::make_shared<RunFlags>();
     run->add_json_to(verb);
     when_typed(verb, [run, &chosen] {
-        chosen = [run] { return tell(scene_list_text(), Json::parse(scene_list_record()), run->json); };
+        chosen = [run] { return tell(scene_list_text(), scene_list_record(), run->json); };
     });
 }
 

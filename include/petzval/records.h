@@ -8,6 +8,7 @@
 #include "petzval/export.h"
 #include "petzval/files.h"
 #include "petzval/look.h"
+#include "petzval/result.h"
 
 #include <cstddef>
 #include <functional>
@@ -31,6 +32,9 @@ PETZVAL_API std::string record_of_lens(const Look& look, const std::string& desc
 PETZVAL_API std::string record_of_glare(const Look& look);  // null where there is none
 PETZVAL_API std::string record_of_depth(const DepthReport& depth, DepthKind kind);
 PETZVAL_API std::string record_of_limits(const FocusLimits& limits, double permissible_radius_px);
+
+// The record of a run that failed, written instead of the verb's own. verb: empty if none was understood.
+PETZVAL_API std::string failure_record(const std::string& verb, const Error& error, int exit_code);
 
 // The record as it is written, ending with a line break, on one line if `indent` is below 0. Infinity is
 // 1e999, valid JSON that readers take as infinity. Lines, origins and errors use the host's names.

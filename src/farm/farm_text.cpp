@@ -46,4 +46,12 @@ std::string farm_text(const FarmShot& shot, const FarmSummary& sum) {
     return text.str();
 }
 
+std::string farm_incomplete_text(const FarmShot& shot, const FarmSummary& sum) {
+    if (sum.incomplete == 0) return "";
+    std::string text = std::to_string(sum.incomplete) + " of " + std::to_string(shot.frames.size()) +
+                       " frames are not complete";
+    if (!sum.to_try.empty()) text += "; " + shot.folder + "/left has the commands for frames to try again";
+    return text;
+}
+
 }  // namespace petzval

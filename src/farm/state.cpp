@@ -208,6 +208,13 @@ std::string record_of_frames(const std::vector<FarmFrame>& frames) {
     return all.dump(-1, ' ', false, Ordered::error_handler_t::replace);
 }
 
+std::string farm_record(const std::string& verb, const FarmShot& shot, const std::vector<FarmFrame>& frames) {
+    auto record = nlohmann::ordered_json::parse(empty_record(verb));
+    record["job"] = shot.folder;
+    record["frames"] = nlohmann::ordered_json::parse(record_of_frames(frames));
+    return record.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
 Status merge_farm_records(const FarmShot& shot, const std::vector<FarmFrame>& frames) {
     std::string records;
     for (const FarmFrame& f : frames)

@@ -73,6 +73,23 @@ TEST_F(FarmStateTest, TheTextCountsFramesByStateAndNamesFailures) {
         EXPECT_NE(text.find(line), std::string::npos) << text;
 }
 
+TEST_F(FarmStateTest, IncompleteFramesAreCountedAndTheirCommandsNamed) {
+    const FarmSummary sum = farm_summary(frames_of_all_states());
+    EXPECT_EQ(farm_incomplete_text(shot, sum), "3 of 4 frames are not complete; " + shot.folder +
+                                                   "/left has the commands for frames to try again");
+    FarmSummary hopeless = sum;
+    hopeless.to_try.clear();
+    EXPECT_EQ(farm_incomplete_text(shot, hopeless), "3 of 4 frames are not complete");
+    EXPECT_EQ(farm_incomplete_text(shot, {}), "");
+}
+
+TEST_F(FarmStateTest, TheRecordNamesTheJobAndEachFrame) {
+    const std::string record = farm_record("farm status", shot, frames_of_all_states());
+    EXPECT_NE(record.find(R"("verb":"farm status")"), std::string::npos) << record;
+    EXPECT_NE(record.find("\"job\":\"" + shot.folder + "\",\"frames\":[{\"frame\":1,"), std::string::npos)
+        << record;
+}
+
 TEST_F(FarmStateTest, RecordsAreMergedAndCommandsLeftForFramesToTry) {
     auto frames = frames_of_all_states();
     ASSERT_TRUE(merge_farm_records(shot, frames));

@@ -45,6 +45,7 @@ void put_in_words(Json& record, const InWords& in_words) {
             for (Json& line : record[lines]) translate(line);
     for (const char* line : {"error", "skipped", "made_again"})
         if (record.contains(line)) translate(record[line]);
+    if (record.contains("failure")) translate(record["failure"]["message"]);
     if (record.contains("camera") && record["camera"].contains("origins"))
         for (Json& origin : record["camera"]["origins"]) translate(origin);
     if (record.contains("views") && record["views"].is_array())
@@ -132,6 +133,16 @@ std::string record_of_limits(const FocusLimits& limits, double permissible_radiu
                    {"near_m", number_json(limits.near_m)},
                    {"far_m", number_json(limits.far_m)},
                    {"hyperfocal_m", number_json(limits.hyperfocal_m)}});
+}
+
+std::string failure_record(const std::string& verb, const Error& error, int exit_code) {
+    Json record = Json::parse(empty_record(verb));
+    if (verb.empty()) record["verb"] = nullptr;
+    record["failure"] = {{"code", name_of(error.code)},
+                         {"message", error.message},
+                         {"field", error.field.empty() ? Json(nullptr) : Json(error.field)},
+                         {"exit_code", exit_code}};
+    return dumped(record);
 }
 
 std::string finished_record(const std::string& record, int indent, const InWords& in_words) {

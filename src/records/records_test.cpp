@@ -18,6 +18,20 @@ TEST(Records, EveryRecordHoldsTheSameKeys) {
     EXPECT_NE(record.find("\"verb\":\"lens psf\""), std::string::npos);
 }
 
+TEST(Records, AFailureIsToldByCodeMessageAndField) {
+    const std::string record =
+        failure_record("lens psf", {ErrorCode::InvalidArgument, "disc.field 2", "disc.field"}, 2);
+    const auto in_words = [](const std::string&) { return std::string("--field 2"); };
+    EXPECT_NE(finished_record(record, -1, in_words)
+                  .find(R"("failure":{"code":"invalid-argument","message":"--field 2","field":"disc.field",)"
+                        R"("exit_code":2})"),
+              std::string::npos)
+        << record;
+    const std::string unread = failure_record("", {ErrorCode::InvalidArgument, "no verb", ""}, 2);
+    EXPECT_NE(unread.find(R"("verb":null)"), std::string::npos) << unread;
+    EXPECT_NE(unread.find(R"("field":null)"), std::string::npos) << unread;
+}
+
 TEST(Records, LinesAreInTheWordsOfTheHost) {
     const auto in_words = [](const std::string& line) { return "<" + line + ">"; };
     EXPECT_EQ(finished_record(R"({"error": "camera.f_number", "output": "a"})", -1, in_words),

@@ -17,13 +17,6 @@ struct JobFlags {
     RunFlags run;
 };
 
-Json report_of(const std::string& verb, const FarmShot& shot, const std::vector<FarmFrame>& frames) {
-    Json report = new_report(verb);
-    report["job"] = shot.folder;
-    report["frames"] = Json::parse(record_of_frames(frames));
-    return report;
-}
-
 Status start(const FarmShot& shot, const std::string& elements) {
     const auto id = slurm_submit(shot, elements);
     if (!id) return id.error();
@@ -44,7 +37,7 @@ Status status(const JobFlags& flags) {
     const auto queue = slurm_queue(*shot);
     if (!queue) warning(queue.error().message);
     if (queue && !queue->empty()) text += "Slurm: " + *queue + "\n";
-    return tell(text, report_of("farm status", *shot, frames), flags.run.json);
+    return tell(text, farm_record("farm status", *shot, frames), flags.run.json);
 }
 
 Status collect(const JobFlags& flags) {
@@ -54,15 +47,11 @@ Status collect(const JobFlags& flags) {
     const FarmSummary sum = farm_summary(frames);
     if (Status merged = merge_farm_records(*shot, frames); !merged) return merged;
     const Status told =
-        tell(printable(farm_text(*shot, sum)), report_of("farm collect", *shot, frames), flags.run.json);
+        tell(printable(farm_text(*shot, sum)), farm_record("farm collect", *shot, frames), flags.run.json);
     if (!told) return told;
     if (flags.resubmit && !sum.to_try.empty()) return start(*shot, slurm_elements(*shot, sum.to_try));
     if (sum.incomplete == 0) return Done{};
-    std::string message =
-        std::to_string(sum.incomplete) + " of " + std::to_string(frames.size()) + " frames are not complete";
-    if (!sum.to_try.empty())
-        message += "; " + shot->folder + "/left has the commands for frames to try again";
-    throw FramesFailed{message, sum.to_try.empty() ? 4 : 1};
+    throw FramesFailed{farm_incomplete_text(*shot, sum), sum.to_try.empty() ? 4 : 1};
 }
 
 template <typename Act>

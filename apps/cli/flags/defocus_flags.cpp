@@ -199,7 +199,7 @@ ShotRunSettings DefocusFlags::settings() const {
     settings.focus_speed = track.focus_speed;
     settings.temporal = track.temporal, settings.motion = track.reading();
     settings.kernel_cache_folder = kernel_cache_folder();
-    settings.engine_options = look.engine_options_json().dump();
+    settings.engine_options = look.engine_options_json();
     settings.warnings = look.idle_in_file();
     return settings;
 }

@@ -5,7 +5,6 @@
 #include "petzval/session.h"
 #include "petzval/shot_run.h"
 
-#include "console/report.h"
 #include "defocus_frames.h"
 #include "flags/camera.h"
 #include "flags/flags.h"

@@ -14,6 +14,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include <nlohmann/json.hpp>
+
 namespace petzval::cli {
 namespace {
 
@@ -127,8 +129,9 @@ std::vector<std::string> LookFlags::input_files() const {
     return files;
 }
 
-Json LookFlags::engine_options_json() const {
-    const Json look = look_json(look_);
+std::string LookFlags::engine_options_json() const {
+    using Json = nlohmann::ordered_json;
+    const Json look = Json::parse(look_to_json(look_));
     Json options = Json::object();
     for (const LookRow& row : look_rows()) {
         const std::string heading = row.heading, field = row.field;
@@ -139,7 +142,7 @@ Json LookFlags::engine_options_json() const {
         if (field.ends_with("_m")) key += "_m";
         options[key] = look[field.substr(0, dot)][field.substr(dot + 1)];
     }
-    return options;
+    return options.dump();
 }
 
 }  // namespace petzval::cli

@@ -3,7 +3,6 @@
 
 #include "petzval/look.h"
 
-#include "console/report.h"
 #include "flags/flags.h"
 
 #include <functional>
@@ -44,7 +43,7 @@ public:
     std::vector<std::string> input_files() const;
     const std::string& save_to() const { return save_to_; }
     // Options of one engine given on the command line, by flag: {"gather_taps": 16}.
-    Json engine_options_json() const;
+    std::string engine_options_json() const;
 
 private:
     void apply(const std::string& field, const std::string& json);

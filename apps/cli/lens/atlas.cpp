@@ -3,6 +3,7 @@
 
 #include "console/console.h"
 #include "console/interrupt.h"
+#include "console/report.h"
 #include "flags/fields.h"
 #include "flags/run_flags.h"
 #include "flags/values.h"

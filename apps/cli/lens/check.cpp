@@ -1,6 +1,7 @@
 // petzval lens check: can this lens be what was printed?
 #include "petzval/lens_facts.h"
-#include "petzval/lens_json.h"
+#include "petzval/reports/lenses.h"
+#include "petzval/reports/stopwatch.h"
 
 #include "console/console.h"
 #include "console/report.h"
@@ -19,14 +20,8 @@ Status check_lens(const std::string& input, const RunFlags& run) {
     if (!facts) return facts.error();
     if (!facts->has_prescription)
         return Error{ErrorCode::InvalidArgument, input + ": has no surfaces to check"};
-    Json report = new_report("lens check");
-    report["input"] = input;
-    for (const char* key :
-         {"lens", "format", "warnings", "doubts", "printed_efl_mm", "printed_f_number", "efl_mm", "f_number"})
-        report[key] = json_of(lens_facts_json(*facts))[key];
-    report["seconds"]["compute"] = report["seconds"]["total"] = watch.seconds();
-    report["peak_memory_bytes"] = peak_memory_bytes();
-    if (Status told = tell(printable(lens_check_text(*facts, input)), report, run.json); !told) return told;
+    const std::string record = lens_check_record(*facts, input, watch.seconds());
+    if (Status told = tell(printable(lens_check_text(*facts, input)), record, run.json); !told) return told;
     if (!facts->doubts.empty())
         throw DoubtsFound{input + ": " + std::to_string(facts->doubts.size()) +
                           (facts->doubts.size() == 1 ? " doubt" : " doubts")};

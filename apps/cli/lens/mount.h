@@ -3,7 +3,6 @@
 
 #include "petzval/camera.h"
 
-#include "console/report.h"
 #include "flags/camera.h"
 #include "flags/look_flags.h"
 #include "flags/look_rows.h"

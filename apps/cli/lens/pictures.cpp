@@ -4,6 +4,7 @@
 #include "petzval/look_check.h"
 
 #include "console/console.h"
+#include "console/report.h"
 #include "flags/fields.h"
 #include "flags/look_rows.h"
 #include "flags/run_flags.h"

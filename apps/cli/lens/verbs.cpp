@@ -2,7 +2,8 @@
 #include "verbs.h"
 
 #include "petzval/lens_facts.h"
-#include "petzval/lens_json.h"
+#include "petzval/reports/lenses.h"
+#include "petzval/reports/stopwatch.h"
 
 #include "console/console.h"
 #include "console/report.h"
@@ -31,16 +32,7 @@ Status list_lenses(const ListFlags& flags) {
     if (lenses.empty())
         return Error{ErrorCode::InvalidArgument,
                      "no lens matches " + joined(flags.words) + "; petzval lens list names them all"};
-    Json report = new_report("lens list");
-    report["lenses"] = json_of(lens_list_json(lenses));
-    return tell(printable(lens_list_text(lenses)), report, flags.run.json);
-}
-
-Json facts_json(const LensFacts& facts, const std::string& input) {
-    Json report = new_report("lens show");
-    report["input"] = input;
-    report.update(json_of(lens_facts_json(facts)));
-    return report;
+    return tell(printable(lens_list_text(lenses)), lens_list_record(lenses), flags.run.json);
 }
 
 Status show_lens(const std::string& name, const RunFlags& run) {
@@ -48,10 +40,8 @@ Status show_lens(const std::string& name, const RunFlags& run) {
     const auto facts = lens_facts(name);
     if (!facts) return facts.error();
     for (const std::string& line : facts->warnings) warning(line);
-    Json report = facts_json(*facts, name);
-    report["seconds"]["compute"] = report["seconds"]["total"] = watch.seconds();
-    report["peak_memory_bytes"] = peak_memory_bytes();
-    return tell(printable(lens_facts_text(*facts)), report, run.json);
+    return tell(printable(lens_facts_text(*facts)), lens_show_record(*facts, name, watch.seconds()),
+                run.json);
 }
 
 void add_lens_list(Verb& lens, Action& chosen) {

@@ -54,6 +54,12 @@ PETZVAL_API FarmSummary farm_summary(const std::vector<FarmFrame>& frames);
 PETZVAL_API std::string farm_text(const FarmShot& shot, const FarmSummary& sum);
 // A JSON array with the state of each frame, infinity as record_of_number() writes it.
 PETZVAL_API std::string record_of_frames(const std::vector<FarmFrame>& frames);
+// The record of `petzval farm status --json` and `farm collect --json`: the job, and record_of_frames().
+PETZVAL_API std::string farm_record(const std::string& verb, const FarmShot& shot,
+                                    const std::vector<FarmFrame>& frames);
+// "3 of 8 frames are not complete; …", naming the file of commands that merge_farm_records() leaves for
+// another try; empty if all are complete.
+PETZVAL_API std::string farm_incomplete_text(const FarmShot& shot, const FarmSummary& sum);
 // Writes all records, in the order of frames, to FOLDER/report.jsonl, and the commands for `to_try` to
 // FOLDER/left, which is removed if there are none. Errors: OutputFailed.
 PETZVAL_API Status merge_farm_records(const FarmShot& shot, const std::vector<FarmFrame>& frames);
