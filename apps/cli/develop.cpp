@@ -1,7 +1,6 @@
 // petzval develop: scene-linear light to a display picture.
 #include "petzval/shots/develop_shot.h"
 
-#include "console/console.h"
 #include "console/report.h"
 #include "flags/camera.h"
 #include "flags/look_flags.h"
@@ -38,7 +37,7 @@ DevelopShot shot_of(const DevelopVerbFlags& flags) {
     shot.display = flags.develop;
     shot.transfer = flags.input.transfer;
     shot.dither = !flags.no_dither;
-    if (flags.ocio.is_on()) shot.display_view = flags.ocio.view;
+    shot.display_view = flags.ocio.view;
     shot.display_space = flags.ocio.space;
     shot.output = flags.output;
     shot.existing = flags.overwrite.existing();
@@ -50,8 +49,6 @@ Status develop_one(const DevelopVerbFlags& flags, const Lens& lens) {
     const auto made = develop_picture(shot_of(flags), lens, flags.ocio.display(terminal()));
     if (!made) return made.error();
     const bool is_kept = made->state == FrameRecord::State::Kept;
-    if (is_kept)
-        for (const std::string& line : damage_of_kept({flags.output})) warning(line);
     return is_kept ? Status(Done{}) : write_record(made->record, flags.run.json);
 }
 
@@ -76,9 +73,8 @@ void check(DevelopVerbFlags& flags, const Verb& verb) {
         throw UsageError(
             "the flags of camera and lens apply to glare, and none is set; for example: --star 0.1 --blades "
             "6");
-    require_png(flags.output);
     flags.input.read.need_depth = false;
-    flags.ocio.check(flags.develop, flags.input.transfer);
+    refuse(petzval::check(shot_of(flags)));
     if (is_sequence(flags.frames, {flags.input.path}, flags.output, flags.run))
         require_frames(has_pattern(flags.input.path));
 }

@@ -83,7 +83,7 @@ std::size_t process_memory_bytes(int threads) {
 
 void InputFlags::check() const {
     for (const std::string& file : files_of(*this)) run_files().reads(file);
-    if (const Status fine = petzval::check(source()); !fine) throw UsageError(in_flags(fine.error().message));
+    refuse(petzval::check(source()));
 }
 
 ShotSource InputFlags::source(const CameraFlags& user) const {

@@ -4,7 +4,6 @@
 #include "console/console.h"
 #include "console/report.h"
 #include "flags/camera.h"
-#include "flags/fields.h"
 #include "flags/run_flags.h"
 #include "frames.h"
 #include "input.h"
@@ -120,7 +119,7 @@ void MakeFlags::check(const Verb& verb) {
     scene.want_motion = motion;
     scene.threads = run.threads;
     const SceneFiles all = files_of(*this);
-    if (const Status fine = petzval::check(all); !fine) throw UsageError(in_flags(fine.error().message));
+    refuse(petzval::check(all));
     refuse_both(frame.has_value(), "--frame", !frames.frames.empty(), "--frames");
     scene.frame = frame.value_or(0);
     const bool many = is_sequence(frames, {}, output, run);

@@ -10,7 +10,6 @@
 #include "verbs.h"
 
 #include <memory>
-#include <utility>
 
 namespace petzval::cli {
 namespace {
@@ -20,15 +19,13 @@ struct SheetFlags {
     std::string output;
     int columns = 0;  // 0: about as wide as high
     std::optional<int> width_px;
-    std::optional<double> rate;  // 24 where it is not given
+    std::optional<double> rate;
     bool no_labels = false;
     DevelopFlags develop;
     OverwriteFlags overwrite;
     FrameFlags frames;
     RunFlags run;
     LensesOnPictureFlags lenses;
-
-    bool makes_video() const { return is_video(output); }
 };
 
 Status make_lens_sheet(const SheetFlags& flags) {
@@ -48,7 +45,7 @@ Status make_lens_sheet(const SheetFlags& flags) {
     return done;
 }
 
-Status make_frame_sheet(const SheetFlags& flags) {
+ShotSheet frame_sheet(const SheetFlags& flags) {
     ShotSheet sheet;
     sheet.source = flags.input.source();
     sheet.display = flags.develop;
@@ -56,16 +53,17 @@ Status make_frame_sheet(const SheetFlags& flags) {
     sheet.output = flags.output;
     sheet.columns = flags.columns;
     sheet.width_px = flags.width_px;
-    sheet.frames_per_second = flags.rate.value_or(24);
+    sheet.frames_per_second = flags.rate;
     sheet.labels = !flags.no_labels;
     sheet.threads = flags.run.threads;
     sheet.overwrite = !flags.overwrite.no_clobber;
-    return make_frames(flags.frames, flags.run, work_of(std::move(sheet), terminal()));
+    return sheet;
 }
 
 Status make_sheet(const SheetFlags& flags) {
     if (flags.overwrite.skips({flags.output})) return Done{};
-    return flags.lenses.is_on() ? make_lens_sheet(flags) : make_frame_sheet(flags);
+    if (flags.lenses.is_on()) return make_lens_sheet(flags);
+    return make_frames(flags.frames, flags.run, work_of(frame_sheet(flags), terminal()));
 }
 
 void check(SheetFlags& flags, const Verb& verb) {
@@ -74,13 +72,9 @@ void check(SheetFlags& flags, const Verb& verb) {
     flags.run.apply();
     flags.overwrite.check();
     flags.lenses.check(verb, flags.input);
-    const auto kind = kind_of_output(flags.output);
-    if (!flags.makes_video() && (!kind || *kind != FileKind::Png))
-        throw UsageError("-o " + flags.output + ": the name must end in .png, or .mp4, .mov, .mkv or .webm");
-    if (!flags.makes_video() && flags.rate) throw UsageError("--rate has no effect on a contact sheet");
-    if (flags.makes_video() && flags.columns > 0) throw UsageError("--columns has no effect on a video");
+    refuse(petzval::check(frame_sheet(flags)));
     if (flags.lenses.is_on()) {
-        if (flags.makes_video()) throw UsageError("--lenses makes a sheet of one picture: -o FILE.png");
+        if (is_video(flags.output)) throw UsageError("--lenses makes a sheet of one picture: -o FILE.png");
         if (!flags.frames.given().empty() || has_pattern(flags.input.path))
             throw UsageError("--lenses shows one picture: give one frame of " + flags.input.path);
         return;

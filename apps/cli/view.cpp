@@ -2,7 +2,6 @@
 #include "petzval/scene.h"
 
 #include "flags/defocus_flags.h"
-#include "flags/fields.h"
 #include "flags/look_rows.h"
 #include "verbs.h"
 
@@ -100,8 +99,7 @@ void check_scene(ViewFlags& flags) {
         return;
     }
     refuse_both(!flags.input.path.empty(), "IN", true, "--scene");
-    if (const Status fine = petzval::check_scene(flags.scene, flags.scene_camera); !fine)
-        throw UsageError(in_flags(fine.error().message));
+    refuse(petzval::check_scene(flags.scene, flags.scene_camera));
     flags.input.path = flags.scene;
 }
 

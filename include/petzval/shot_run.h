@@ -145,6 +145,11 @@ struct ShotRunHost : FrameLoopHost {
     std::function<std::string(const FoundCamera&)> camera_example = {};
 };
 
+// Refuses a display view together with the tone, contrast and transfer that it replaces, and a working space
+// without a view. check(ShotRunSettings) and check(DevelopShot) include it. Errors: InvalidArgument.
+PETZVAL_API Status check_display(const DisplayChoice& display, std::optional<Transfer> transfer,
+                                 const std::string& display_view, const std::string& display_space);
+
 // Makes one picture: paths of the settings have no frame number, and track, rack and frames are ignored.
 // Errors: those of reading, of settings that do not fit each other, OutputFailed, Cancelled.
 PETZVAL_API Result<FrameRecord> make_picture(Session& session, const ShotRunSettings& settings,

@@ -130,6 +130,18 @@ std::string motion_word(const MotionReading& motion) {
     return motion.wanted ? motion.layer : "off";
 }
 
+Status check_display(const DisplayChoice& display, std::optional<Transfer> transfer,
+                     const std::string& display_view, const std::string& display_space) {
+    const bool is_shown = !display_view.empty();
+    if (!display_space.empty() && !is_shown)
+        return refused("ocio.working_space", " has no effect without ocio.view");
+    for (const auto& [field, given] : {std::pair("develop.tone", display.tone.has_value()),
+                                       std::pair("develop.contrast", display.contrast.has_value()),
+                                       std::pair("read.transfer", transfer.has_value())})
+        if (const Status one = contradict(is_shown, "ocio.view", given, field); !one) return one;
+    return Done{};
+}
+
 Status check(const ShotSource& source, const Look& look) {
     if (look.expand_highlights && !source.behind.empty())
         return refused("plate.expand_highlights",
@@ -141,7 +153,9 @@ Status check(const ShotRunSettings& settings) {
     if (const Status fine = check(settings.source, settings.look); !fine) return fine;
     for (const auto rules : {check_view, check_frames})
         if (const Status fine = rules(settings); !fine) return fine;
-    return settings.output.empty() ? Status(Done{}) : check_output(settings);
+    if (!settings.output.empty())
+        if (const Status fine = check_output(settings); !fine) return fine;
+    return check_display(settings.display, settings.transfer, settings.display_view, settings.display_space);
 }
 
 }  // namespace petzval

@@ -79,9 +79,7 @@ Result<Picture> shown_by(const ShotRunHost& host, Shot& shot, DevelopSettings& d
     return light;
 }
 
-}  // namespace
-
-Result<FrameRecord> develop_picture(const DevelopShot& settings, const Lens& lens, const ShotRunHost& host) {
+Result<FrameRecord> developed(const DevelopShot& settings, const Lens& lens, const ShotRunHost& host) {
     const Stopwatch total;
     const MadeWith made_with = made_with_of(settings);
     const OutputState there =
@@ -119,18 +117,37 @@ Result<FrameRecord> develop_picture(const DevelopShot& settings, const Lens& len
     return frame_record(records::as_text(record));
 }
 
+}  // namespace
+
+Status check(const DevelopShot& settings) {
+    const auto kind = kind_of_output(settings.output);
+    if (!kind || *kind != FileKind::Png)
+        return Error{ErrorCode::InvalidArgument,
+                     "run.output " + settings.output + ": the name must end in .png", "run.output"};
+    return check_display(settings.display, settings.transfer, settings.display_view, settings.display_space);
+}
+
+Result<FrameRecord> develop_picture(const DevelopShot& settings, const Lens& lens, const ShotRunHost& host) {
+    if (const Status fine = check(settings); !fine) return fine.error();
+    auto made = developed(settings, lens, host);
+    if (made && made->state == FrameRecord::State::Kept)
+        for (const std::string& line : damage_of_kept({settings.output})) say(host, Say::Warning, line);
+    return made;
+}
+
 FrameWork work_of(const DevelopShot& settings, const Lens& lens, const ShotRunHost& host) {
     FrameWork work;
     work.input = settings.source.path;
     work.keeps_what_is_there = settings.existing != ExistingOutputs::Replace;
     work.files = [settings](int frame) -> Result<FrameWork::Files> {
         const DevelopShot of = of_frame(settings, frame);
+        if (const Status fine = check(of); !fine) return fine.error();
         return FrameWork::Files{files_of(of.source), {of.output}};
     };
     work.make = [settings, lens, host](int frame, bool again) {
         DevelopShot of = of_frame(settings, frame);
         if (again) of.existing = ExistingOutputs::Replace;
-        return develop_picture(of, lens, host);
+        return developed(of, lens, host);
     };
     return work;
 }

@@ -238,7 +238,9 @@ TEST(ShotRunSettings, ChoicesWithoutUseForTheOutputAreRefusedByTheirField) {
     EXPECT_EQ(field("out.exr", tone), "develop.tone");
     EXPECT_EQ(field("out.png", tone), "");
     const auto ocio = [](Settings& s) { s.display_view = "sRGB,Film", s.view = ShotView::Focus; };
+    const auto both = [](Settings& s) { s.display_view = "sRGB,Film", s.display.tone = ToneCurve::None; };
     EXPECT_EQ(field("out.png", ocio), "ocio.view");
+    EXPECT_EQ(field("out.png", both), "ocio.view") << "the view has a tone of its own";
     const auto eyes = [](Settings& s) { s.source.read.view_name = kAllViews; };
     EXPECT_EQ(field("out.png", eyes), "read.view_name");
     EXPECT_EQ(field("out.exr", eyes), "");

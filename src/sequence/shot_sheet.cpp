@@ -22,6 +22,7 @@ public:
     Sheet(ShotSheet sheet, FrameLoopHost host) : sheet_(std::move(sheet)), host_(std::move(host)) {}
 
     const std::string& input() const { return sheet_.source.path; }
+    Status check() const { return petzval::check(sheet_); }
 
     Result<FrameRecord> add(int frame) {
         ShotSource source = sheet_.source;
@@ -87,7 +88,7 @@ private:
         }
         if (!video_) {
             auto video = std::make_unique<sequence::Video>();
-            Status open = video->open(sheet_.output, width_, height_, sheet_.frames_per_second);
+            Status open = video->open(sheet_.output, width_, height_, sheet_.frames_per_second.value_or(24));
             if (!open) return open;
             video_ = std::move(video);
         }
@@ -108,11 +109,27 @@ private:
 
 }  // namespace
 
+Status check(const ShotSheet& sheet) {
+    const auto refused = [](const std::string& field, const std::string& why) {
+        return Error{ErrorCode::InvalidArgument, field + why, field};
+    };
+    const auto kind = kind_of_output(sheet.output);
+    if (is_video(sheet.output))
+        return sheet.columns > 0 ? Status(refused("sheet.columns", " has no effect on a video")) : Done{};
+    if (!kind || *kind != FileKind::Png)
+        return refused("run.output",
+                       " " + sheet.output + ": the name must end in .png, or .mp4, .mov, .mkv or .webm");
+    if (sheet.frames_per_second)
+        return refused("sheet.frames_per_second", " has no effect on a contact sheet");
+    return Done{};
+}
+
 FrameWork work_of(ShotSheet settings, FrameLoopHost host) {
     const auto sheet = std::make_shared<Sheet>(std::move(settings), std::move(host));
     FrameWork work;
     work.input = sheet->input();
     work.files = [sheet](int frame) -> Result<FrameWork::Files> {
+        if (const Status fine = sheet->check(); !fine) return fine.error();
         return FrameWork::Files{{at_frame(sheet->input(), frame)}, {}};
     };
     work.make = [sheet](int frame, bool) { return sheet->add(frame); };

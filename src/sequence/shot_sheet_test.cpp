@@ -66,6 +66,43 @@ TEST_F(ShotSheetTest, FramesOfAnotherShapeKeepItAndMissingOnesAreBlack) {
     EXPECT_EQ(red(2 * (16 + gap) + 8, 1), 0) << "the frame is twice as wide as high";
 }
 
+TEST_F(ShotSheetTest, SettingsWithoutEffectAndOtherFormatsAreRefused) {
+    const auto why = [&](const ShotSheet& sheet) {
+        const Status fine = check(sheet);
+        return fine ? std::string() : fine.error().message;
+    };
+    EXPECT_EQ(why({.source = {}, .output = "s.png", .columns = 2}), "");
+    EXPECT_EQ(why({.source = {}, .output = "s.mp4", .frames_per_second = 25}), "");
+    EXPECT_EQ(why({.source = {}, .output = "s.png", .frames_per_second = 25}),
+              "sheet.frames_per_second has no effect on a contact sheet");
+    EXPECT_EQ(why({.source = {}, .output = "s.mov", .columns = 2}), "sheet.columns has no effect on a video");
+    EXPECT_EQ(why({.source = {}, .output = "s.exr"}),
+              "run.output s.exr: the name must end in .png, or .mp4, .mov, .mkv or .webm");
+    const FrameWork work = work_of(ShotSheet{.source = source("in.####.exr"), .output = at("s.exr")});
+    EXPECT_FALSE(work.files(1)) << "a loop refuses it before any frame is read";
+}
+
+TEST_F(ShotSheetTest, ADisplayPictureOfAShotIsAPngWithOneDisplay) {
+    const auto why = [&](const DevelopShot& shot) {
+        const Status fine = check(shot);
+        return fine ? std::string() : fine.error().message;
+    };
+    DevelopShot shot{.source = source("in.0001.exr"), .display_view = "sRGB,Film", .output = "a.png"};
+    shot.display.exposure_stops = 1;
+    EXPECT_EQ(why(shot), "");
+    shot.display.tone = ToneCurve::None;
+    EXPECT_EQ(why(shot), "ocio.view and develop.tone contradict each other; give one");
+    shot.display = {.contrast = 2};
+    EXPECT_EQ(why(shot), "ocio.view and develop.contrast contradict each other; give one");
+    shot.display = {}, shot.transfer = Transfer::Linear;
+    EXPECT_EQ(why(shot), "ocio.view and read.transfer contradict each other; give one");
+    shot.transfer.reset(), shot.display_view = "", shot.display_space = "scene";
+    EXPECT_EQ(why(shot), "ocio.working_space has no effect without ocio.view");
+    shot.display_space = "", shot.output = "a.exr";
+    EXPECT_EQ(why(shot), "run.output a.exr: the name must end in .png");
+    EXPECT_FALSE(develop_picture(shot, *Lens::open({}), {}));
+}
+
 TEST_F(ShotSheetTest, ASheetWithoutAnyFrameIsAnError) {
     const FrameWork work = work_of(ShotSheet{.source = source("none.####.exr"), .output = at("sheet.png")});
     EXPECT_FALSE(work.make(1, false));

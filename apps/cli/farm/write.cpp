@@ -5,7 +5,6 @@
 #include "guard.h"
 #include "verbs.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -76,8 +75,7 @@ FarmJob job_of(const WriteFlags& flags) {
     job.command = command_of(flags);
     job.threads = flags.shot.run.threads;
     job.memory_bytes = flags.shot.max_memory_bytes;
-    const auto look = std::find(flags.words.begin(), flags.words.end(), "--look");
-    if (look != flags.words.end() && look + 1 != flags.words.end()) job.look_file = *(look + 1);
+    job.look_file = flags.shot.look.file();
     return job;
 }
 

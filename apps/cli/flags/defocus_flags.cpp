@@ -18,10 +18,6 @@ Result<int> parse_overscan(const std::string& text) {
     return Error{ErrorCode::InvalidArgument, "must be off, fit, auto or a number of pixels from 1 to 65536"};
 }
 
-void refuse(const Status& fine) {
-    if (!fine) throw UsageError(in_flags(fine.error().message));
-}
-
 }  // namespace
 
 void DefocusFlags::add_engines_to(Verb& verb) {
@@ -138,7 +134,7 @@ void DefocusFlags::check_choices() {
 
 void DefocusFlags::check_shown() {
     check_choices();
-    ocio.check(develop, input.transfer);
+    refuse(check_display(develop, input.transfer, ocio.view, ocio.space));
 }
 
 void DefocusFlags::check(const Verb& verb) {
@@ -151,7 +147,6 @@ void DefocusFlags::check(const Verb& verb) {
     is_shot = is_sequence(*this);
     refuse(petzval::check(settings()));
     check_view();
-    ocio.check(develop, input.transfer);
 }
 
 // Flags that --view has no use for; a look from a file may hold them.
@@ -188,7 +183,7 @@ ShotRunSettings DefocusFlags::settings() const {
     settings.overscan_px = overscan_px;
     settings.region = region;
     settings.display = develop, settings.transfer = input.transfer;
-    if (ocio.is_on()) settings.display_view = ocio.view, settings.display_space = ocio.space;
+    settings.display_view = ocio.view, settings.display_space = ocio.space;
     settings.output = output;
     if (run.json != "-") settings.record_file = run.json;
     if (frames.report != "-") settings.report_file = frames.report;

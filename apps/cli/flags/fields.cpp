@@ -102,6 +102,8 @@ const Rows& other_flags() {
         {"ocio.working_space", "--ocio-space"},
         {"report.output", "-o"},
         {"session.device", "--device"},
+        {"sheet.columns", "--columns"},
+        {"sheet.frames_per_second", "--rate"},
     };
     return rows;
 }

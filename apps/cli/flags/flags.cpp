@@ -2,6 +2,7 @@
 
 #include "petzval/frames.h"
 
+#include "flags/fields.h"
 #include "guard.h"
 #include "help/help_forms.h"
 
@@ -111,6 +112,10 @@ Verb& add_verb(Verb& parent, const std::string& name, const std::string& purpose
     verb.set_help_flag("-h,--help", "show the common flags")->group(VerbHelp::kLastHeading);
     verb.set_help_all_flag("--help-all", "show all flags")->group(VerbHelp::kLastHeading);
     return verb;
+}
+
+void refuse(const Status& fine) {
+    if (!fine) throw UsageError(in_flags(fine.error().message));
 }
 
 void when_typed(Verb& verb, std::function<void()> choose) { verb.callback(std::move(choose)); }

@@ -39,6 +39,9 @@ using Action = std::function<Status()>;
 
 // A verb of the program. `example` is what its --help shows first, one command per line.
 Verb& add_verb(Verb& parent, const std::string& name, const std::string& purpose, const std::string& example);
+// Throws UsageError for the error of a check in the library, in the words of flags.
+void refuse(const Status& fine);
+
 // Once the whole line has been read without an error: checks the flags, throws UsageError, or chooses an
 // action.
 void when_typed(Verb& verb, std::function<void()> choose);

@@ -42,6 +42,7 @@ public:
     // Files that are read: a look, a lens, pictures.
     std::vector<std::string> input_files() const;
     const std::string& save_to() const { return save_to_; }
+    const std::string& file() const { return file_; }  // of --look; empty: none
     // Options of one engine given on the command line, by flag: {"gather_taps": 16}.
     std::string engine_options_json() const;
 

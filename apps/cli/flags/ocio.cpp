@@ -20,13 +20,6 @@ void OcioFlags::add_to(Verb& verb) {
                "the config's name for scene-linear Rec.709, if it does not define one", parse_text, space);
 }
 
-void OcioFlags::check(const DevelopFlags& develop, std::optional<Transfer> transfer) const {
-    if (!space.empty() && !is_on()) throw UsageError("--ocio-space has no effect without --ocio");
-    refuse_both(is_on(), "--ocio", develop.tone.has_value(), "--tone");
-    refuse_both(is_on(), "--ocio", develop.contrast.has_value(), "--contrast");
-    refuse_both(is_on(), "--ocio", transfer.has_value(), "--transfer");
-}
-
 Status OcioFlags::try_out() const {
     Picture light(1, 1);
     DevelopSettings settings;

@@ -20,8 +20,6 @@ struct OcioFlags {
     std::string space;
 
     void add_to(Verb& verb);
-    // Throws UsageError, also for flags that --ocio replaces.
-    void check(const DevelopFlags& develop, std::optional<Transfer> transfer) const;
     bool is_on() const { return !view.empty(); }
     // Checks that the config has the display and view; errors as show().
     Status try_out() const;

@@ -4,7 +4,6 @@
 #include "console/console.h"
 #include "console/interrupt.h"
 #include "console/report.h"
-#include "flags/fields.h"
 #include "flags/run_flags.h"
 #include "flags/values.h"
 #include "guard.h"
@@ -48,8 +47,7 @@ void check(AtlasFlags& flags, const Verb& verb) {
     require_argument(verb, flags.folder, "-o FOLDER");
     require_folder(flags.folder);
     flags.check_lens(verb);
-    if (const Status fine = petzval::check(flags.files()); !fine)
-        throw UsageError(in_flags(fine.error().message));
+    refuse(petzval::check(flags.files()));
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 
 #include "console/console.h"
 #include "console/report.h"
-#include "flags/fields.h"
 #include "flags/look_rows.h"
 #include "flags/run_flags.h"
 #include "flags/values.h"
@@ -103,10 +102,6 @@ bool shapes_the_pupil(const LookRow& row) {
     return heading == "Lens" || heading == "Pupil";
 }
 
-void check_file(const LensPictureFile& file) {
-    if (const Status fine = petzval::check(file); !fine) throw UsageError(in_flags(fine.error().message));
-}
-
 void add_psf(Verb& lens, Action& chosen) {
     Verb& verb = add_verb(lens, "psf", "write one kernel: the image of a point of light",
                           "petzval lens psf doublet --defocus 40 -o disc.exr\n"
@@ -125,7 +120,7 @@ void add_psf(Verb& lens, Action& chosen) {
         flags->check(verb);
         flags->disc.field_x = flags->field.low, flags->disc.field_y = flags->field.high;
         flags->disc.raw = flags->raw;
-        check_file(flags->file(flags->disc));
+        refuse(petzval::check(flags->file(flags->disc)));
         chosen = [flags] { return make(*flags, flags->disc); };
     });
 }
@@ -180,7 +175,7 @@ void add_volume(Verb& lens, Action& chosen) {
         if (flags->raw)
             throw UsageError("--raw has no effect in lens volume; lens psf and lens table have it");
         flags->volume.field_x = flags->field.low, flags->volume.field_y = flags->field.high;
-        check_file(flags->file(flags->volume));
+        refuse(petzval::check(flags->file(flags->volume)));
         chosen = [flags] { return make(*flags, flags->volume); };
     });
 }

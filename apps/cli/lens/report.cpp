@@ -5,7 +5,6 @@
 
 #include "console/console.h"
 #include "console/progress.h"
-#include "flags/fields.h"
 #include "flags/run_flags.h"
 #include "flags/values.h"
 #include "guard.h"
@@ -33,7 +32,7 @@ void check(LensReportFlags& flags, const Verb& verb) {
     if (!flags.all && files.lenses.empty())
         require_argument(verb, "", "a lens, such as doublet, a lens file, or --all");
     if (flags.has_many()) require_argument(verb, files.output, "-o DIR");
-    if (const Status fine = petzval::check(files); !fine) throw UsageError(in_flags(fine.error().message));
+    refuse(petzval::check(files));
     if (const auto name = parse_one_file(files.output); is_lens_page(files.output) && !name)
         throw UsageError("-o " + files.output + ": " + name.error().message);
     flags.overwrite.check();

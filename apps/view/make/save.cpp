@@ -18,7 +18,10 @@ Result<ShotRunSettings> settings_to_save(ShotRunSettings settings, const Choice&
     settings.display = is_png ? DisplayChoice{choice.develop.exposure_stops, choice.develop.contrast,
                                               choice.develop.tone, settings.display.bits}
                               : DisplayChoice{};
-    if (!choice.ocio || !is_png) settings.display_view = settings.display_space = "";
+    if (!choice.ocio || !is_png)
+        settings.display_view = settings.display_space = "";
+    else  // the view replaces them
+        settings.display.contrast.reset(), settings.display.tone.reset();
     settings.source = with_input(std::move(settings.source), choice.input);
     settings.source.camera = choice.camera;
     if (choice.camera.f_number) settings.source.camera.aperture_diameter_mm.reset();

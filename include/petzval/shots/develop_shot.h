@@ -30,9 +30,12 @@ struct DevelopShot {
     int threads = 0;  // 0: all
 };
 
+// Refuses an output in another format than PNG; check_display() is included. Errors: InvalidArgument.
+PETZVAL_API Status check(const DevelopShot& settings);
+
 // One picture: paths hold no frame number. `lens` is that of the look. The record is that of `petzval develop
-// --json`. Of `host`, only `say`, `cancelled` and `to_display` are called. Errors: those of read_shot(), of
-// Session::add_light() and of to_display; OutputFailed.
+// --json`. Of `host`, only `say`, `cancelled` and `to_display` are called. Errors: those of check(),
+// read_shot(), of Session::add_light() and of to_display; OutputFailed.
 PETZVAL_API Result<FrameRecord> develop_picture(const DevelopShot& settings, const Lens& lens,
                                                 const ShotRunHost& host = {});
 
