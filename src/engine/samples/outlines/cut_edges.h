@@ -1,4 +1,5 @@
-// Edges of the picture that an occluder cuts: they continue behind it, straight.
+// Edges of the picture that an occluder cuts: they continue behind it, straight. Two ends on one line are one
+// edge.
 #pragma once
 
 #include "engine/samples/hidden.h"
@@ -29,6 +30,7 @@ public:
         // Offset of the cut from its middle; kept apart, so that strips of a frame round alike.
         float off_x, off_y;
         float into_x, into_y;    // direction of the continuation, of length 1
+        float length_px;         // it ends so far from its cut
         float coc_px, strength;  // 0…1
     };
 

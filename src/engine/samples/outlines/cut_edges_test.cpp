@@ -60,6 +60,54 @@ TEST(CutEdges, NoneIsLookedForOnWhatIsBlurredMore) {
     EXPECT_EQ(Scene().edges(1, kWallPx - 1).around(outside).passes(window, kWallPx), 1);
 }
 
+// A white bar on a dark wall, crossed by a leaf as wide as `leaf_px`.
+struct Bar {
+    static constexpr int kFirst = 30, kWidth = 4, kLeafTop = 24;
+    Picture colour{kSize, kSize};
+    Plane coc{kSize, kSize, kWallPx};
+    explicit Bar(int leaf_px, int bar_bottom = kSize) {
+        for (int y = 0; y < kSize; ++y)
+            for (int x = 0; x < kSize; ++x) {
+                const bool leaf = y >= kLeafTop && y < kLeafTop + leaf_px;
+                const bool bar = x >= kFirst && x < kFirst + kWidth && y < bar_bottom;
+                const float c = leaf ? kLeaf : bar ? 1.0f : kWall;
+                colour(x, y) = {c, c, c, 1};
+                if (leaf) coc(x, y) = kLeafPx;
+            }
+    }
+    CutEdges edges() const {
+        const LitPicture picture{colour, {}};
+        const Mixtures mixed = unmix_silhouettes(picture, coc, connections(coc, one_thread()), one_thread());
+        const KnownSurfaces known(picture, coc, mixed, 0, one_thread());
+        return {picture, known.radii(), mixed, 1, FillRule{}.edges_to_px, one_thread()};
+    }
+};
+
+TEST(CutEdges, BothEdgesOfANarrowBarGoOn) {
+    const CutEdges edges = Bar(16).edges();
+    const CutEdges::Point bar{31, 20}, left{20, 20}, right{44, 20};
+    for (int y = Bar::kLeafTop + 2; y < Bar::kLeafTop + 14; ++y) {
+        const auto inside = edges.around({31, y}), outside = edges.around({27, y});
+        EXPECT_EQ(inside.passes(bar, kWallPx), 1) << y;
+        EXPECT_FLOAT_EQ(inside.passes(left, kWallPx), CutEdges::kCut) << y;
+        EXPECT_FLOAT_EQ(inside.passes(right, kWallPx), CutEdges::kCut) << y;
+        EXPECT_EQ(outside.passes(left, kWallPx), 1) << y;
+        EXPECT_FLOAT_EQ(outside.passes(bar, kWallPx), CutEdges::kCut) << y;
+    }
+}
+
+TEST(CutEdges, AnEdgeStopsWhereItsSurfaceShowsWithoutIt) {
+    Bar twice(8, Bar::kLeafTop + 4);  // the bar ends behind the leaf; a second leaf lies far below
+    for (int y = 50; y < 58; ++y)
+        for (int x = 0; x < kSize; ++x)
+            twice.colour(x, y) = {kLeaf, kLeaf, kLeaf, 1}, twice.coc(x, y) = kLeafPx;
+    const CutEdges edges = twice.edges();
+    const CutEdges::Point left{20, 54}, right{44, 54};
+    EXPECT_FLOAT_EQ(edges.around({31, 26}).passes({20, 26}, kWallPx), CutEdges::kCut);
+    EXPECT_EQ(edges.around({31, 54}).passes(left, kWallPx), 1);
+    EXPECT_EQ(edges.around({31, 54}).passes(right, kWallPx), 1);
+}
+
 // Votes by distance alone let up to nine times the wall's light out, and keep less than half inside.
 TEST(CutEdges, AWindowEndsStraightBehindALeaf) {
     const Scene scene;

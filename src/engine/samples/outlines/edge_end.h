@@ -1,0 +1,69 @@
+// Ends of picture edges: where something nearer begins to hide one.
+#pragma once
+
+#include "engine/samples/hidden.h"
+#include "engine/samples/outlines/outline_end.h"
+
+#include <vector>
+
+namespace petzval::engine {
+
+// A straight edge of the picture that a nearer surface hides from `at` on.
+struct EdgeEnd {
+    PixelAt at;
+    // Offset of the edge from the pixel's middle; kept apart, so that strips of a frame round alike.
+    float off_x, off_y;
+    float into_x, into_y;  // direction of the continuation, of length 1
+    bool bright_is_right;  // true if its brighter side lies to the right of the continuation (y points down)
+    float coc_px;          // radius of its surface
+    float strength;        // 0…1, by its contrast and the length that is visible
+    float known_px;        // distance at which its direction errs by end_px
+    bool goes_on_alone;    // false if so few pixels of it are visible that only another end confirms it
+
+    // The pixel that the continuation reaches after t pixels.
+    PixelAt ahead(float t) const;
+};
+
+// The edges of a picture on surfaces without lamps. radii_px and white: as for CutEdges.
+class EdgeEnds {
+public:
+    // Borrows radii_px.
+    EdgeEnds(const LitPicture& picture, View<const float> radii_px, const Mixtures& mixtures, float white,
+             Workers& workers);
+
+    // Every end on a surface blurred by at most to_px, ordered by rows.
+    std::vector<EdgeEnd> find(const Mixtures& mixtures, float to_px, Workers& workers) const;
+    // Returns the length over which the edge continues until its surface becomes visible; at most
+    // continues_px.
+    float hidden_px(const EdgeEnd& end) const;
+
+private:
+    // A pixel by its place along an edge that is followed row by row (upright) or column by column, and
+    // across it.
+    struct Place {
+        bool upright;
+        int along, across;
+        PixelAt pixel() const { return upright ? PixelAt{across, along} : PixelAt{along, across}; }
+        Place moved(int by_along, int by_across) const {
+            return {upright, along + by_along, across + by_across};
+        }
+    };
+    struct Point {
+        float across = 0, energy = 0;  // its place in the row, and the sum of squared changes of light
+        bool rises = false;            // true if light increases across
+    };
+
+    float change_at(const Place& place) const;
+    bool point_at(const Place& place, Point& point) const;
+    bool point_near(const Place& place, float across, float within_px, Point& point) const;
+    bool end_at(const Place& start, int side, EdgeEnd& end) const;
+    bool goes_behind(const EdgeEnd& end) const;
+    bool hides(PixelAt p, float coc_px) const;
+    bool shows(PixelAt p, float coc_px) const;
+
+    View<const float> radii_;
+    Plane light_;  // of each clean pixel, without lamps; -1 at silhouettes
+    float dark_;
+};
+
+}  // namespace petzval::engine
