@@ -121,6 +121,8 @@ PETZVAL_API std::vector<std::string> files_of(const ShotSource& source);
 PETZVAL_API std::vector<std::string> files_of(const Look& look);
 
 // Errors: InvalidArgument for settings that contradict each other (depth.kind without its depth.range, …).
+// That of a source includes that of its camera.
+PETZVAL_API Status check(const CameraChoice& camera);
 PETZVAL_API Status check(const ShotSource& source);
 
 // Reads all files of the source. `control` is polled between files and in loops; its progress is called
@@ -170,6 +172,10 @@ struct WorldPoint {
 // the camera is assumed to look along -z, with a warning in shot.warnings. Errors: InvalidArgument without
 // a matrix, or for a point in the plane of the lens.
 PETZVAL_API Status focus_on_point(Shot& shot, WorldPoint point);
+// Refuses more than one choice of the focus: a distance, a pixel, a point of the world. Errors:
+// InvalidArgument.
+PETZVAL_API Status check_focus(const CameraChoice& camera, const std::optional<PixelPosition>& pixel,
+                               const std::optional<WorldPoint>& point);
 
 // Position of the camera in the world: the point that becomes the origin if the matrix holds only rotations.
 PETZVAL_API std::optional<WorldPoint> position_of(const FoundCamera& found);

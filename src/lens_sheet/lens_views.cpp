@@ -91,6 +91,8 @@ Result<Picture> lens_view_sheet(Session& session, Shot& shot, const Look& look, 
 
 Status write_lens_view_sheet(const LensViewFile& file, const Control& control,
                              const std::function<void(const std::string&)>& warn) {
+    if (const Status fine = check_focus(file.source.camera, file.focus_pixel, file.focus_point); !fine)
+        return fine;
     auto shot = read_shot(file.source, {.cancelled = control.cancelled});
     if (!shot) return shot.error();
     for (const std::string& line : shot->warnings) warn(line);

@@ -151,6 +151,9 @@ Status check(const ShotSource& source, const Look& look) {
 
 Status check(const ShotRunSettings& settings) {
     if (const Status fine = check(settings.source, settings.look); !fine) return fine;
+    if (const Status fine = check_focus(settings.source.camera, settings.focus_pixel, settings.focus_point);
+        !fine)
+        return fine;
     for (const auto rules : {check_view, check_frames})
         if (const Status fine = rules(settings); !fine) return fine;
     if (!settings.output.empty())

@@ -237,6 +237,10 @@ TEST(ShotRunSettings, ChoicesWithoutUseForTheOutputAreRefusedByTheirField) {
     const auto tone = [](Settings& s) { s.display.tone = ToneCurve::None; };
     EXPECT_EQ(field("out.exr", tone), "develop.tone");
     EXPECT_EQ(field("out.png", tone), "");
+    const auto two_foci = [](Settings& s) {
+        s.source.camera.focus_distance_m = 2, s.focus_pixel = PixelPosition{1, 1};
+    };
+    EXPECT_EQ(field("out.exr", two_foci), "camera.focus_distance_m");
     const auto ocio = [](Settings& s) { s.display_view = "sRGB,Film", s.view = ShotView::Focus; };
     const auto both = [](Settings& s) { s.display_view = "sRGB,Film", s.display.tone = ToneCurve::None; };
     EXPECT_EQ(field("out.png", ocio), "ocio.view");

@@ -6,6 +6,7 @@
 #include "files/wording.h"
 #include "shot/file_of_shot.h"
 
+#include <initializer_list>
 #include <utility>
 
 namespace petzval {
@@ -145,6 +146,35 @@ View<const float> Shot::depth_plane() const {
     return {};
 }
 
+namespace {
+
+// Refuses the first two that are given.
+Status one_of(std::initializer_list<std::pair<const char*, bool>> fields) {
+    const char* first = nullptr;
+    for (const auto& [field, is_given] : fields) {
+        if (!is_given) continue;
+        if (first)
+            return Error{ErrorCode::InvalidArgument,
+                         std::string(first) + " and " + field + " contradict each other; give one", first};
+        first = field;
+    }
+    return Done{};
+}
+
+}  // namespace
+
+Status check(const CameraChoice& camera) {
+    return one_of({{"camera.f_number", camera.f_number || camera.wide_open},
+                   {"camera.aperture_diameter_mm", camera.aperture_diameter_mm.has_value()}});
+}
+
+Status check_focus(const CameraChoice& camera, const std::optional<PixelPosition>& pixel,
+                   const std::optional<WorldPoint>& point) {
+    return one_of({{"camera.focus_distance_m", camera.focus_distance_m.has_value()},
+                   {"focus.at", pixel.has_value()},
+                   {"focus.point", point.has_value()}});
+}
+
 Status check(const ShotSource& source) {
     const DepthKind kind = source.depth.kind;
     const bool ranged = kind == DepthKind::Normalized || kind == DepthKind::Device || is_mist(kind);
@@ -163,9 +193,7 @@ Status check(const ShotSource& source) {
             "read.layers"};
     if (kind == DepthKind::CocPx && source.depth.unit_scale_m != 1)
         return invalid("depth.unit_scale_m has no meaning with depth.kind coc-px: radii are in pixels");
-    if (source.camera.f_number && source.camera.aperture_diameter_mm)
-        return invalid("camera.f_number and camera.aperture_diameter_mm contradict each other; give one");
-    return Done{};
+    return check(source.camera);
 }
 
 Result<Shot> read_shot(const ShotSource& source, const Control& control) {

@@ -110,10 +110,26 @@ TEST_F(Shots, AnApertureMayBeGivenByItsDiameter) {
     EXPECT_DOUBLE_EQ(rendered(read())->camera.f_number, 100 / 12.5) << "the user's";
     source.camera.f_number = 8;
     EXPECT_THAT(refusal(ErrorCode::InvalidArgument), HasSubstr("camera.aperture_diameter_mm"));
+    source.camera.f_number.reset(), source.camera.wide_open = true;
+    EXPECT_THAT(refusal(ErrorCode::InvalidArgument), HasSubstr("camera.f_number"));
     write_picture(source.path);  // without its camera
     source.camera = {};
     source.camera.aperture_diameter_mm = 25;
     EXPECT_THAT(refusal(ErrorCode::InvalidArgument), HasSubstr("give camera.focal_length_mm"));
+}
+
+TEST(Focus, IsChosenInOneWay) {
+    const CameraChoice none, far{.focus_distance_m = 3};
+    const PixelPosition pixel{4, 2};
+    const WorldPoint point{0, 0, -1};
+    EXPECT_TRUE(check_focus(none, {}, {}));
+    EXPECT_TRUE(check_focus(far, {}, {}));
+    EXPECT_TRUE(check_focus(none, pixel, {}));
+    EXPECT_EQ(check_focus(far, pixel, {}).error().message,
+              "camera.focus_distance_m and focus.at contradict each other; give one");
+    EXPECT_EQ(check_focus(far, {}, point).error().field, "camera.focus_distance_m");
+    EXPECT_EQ(check_focus(none, pixel, point).error().message,
+              "focus.at and focus.point contradict each other; give one");
 }
 
 TEST_F(Shots, TheUsersNumbersWinOverTheFiles) {

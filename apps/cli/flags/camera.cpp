@@ -70,9 +70,7 @@ CameraChoice CameraFlags::choice() const {
             wide_open};
 }
 
-void CameraFlags::check() const {
-    refuse_both(f_number.has_value(), "--fstop", aperture_diameter_mm.has_value(), "--aperture-diameter");
-}
+void CameraFlags::check() const { refuse(petzval::check(choice())); }
 
 bool CameraFlags::any() const { return !given().empty(); }
 
@@ -87,9 +85,7 @@ void FocusFlags::add_to(Verb& verb) {
 }
 
 void FocusFlags::check(const CameraFlags& camera) const {
-    refuse_both(camera.focus_distance_m.has_value(), "--focus", focus_at.has_value(), "--focus-at");
-    refuse_both(camera.focus_distance_m.has_value(), "--focus", focus_point.has_value(), "--focus-point");
-    refuse_both(focus_at.has_value(), "--focus-at", focus_point.has_value(), "--focus-point");
+    refuse(check_focus(camera.choice(), focus_at, focus_point));
 }
 
 std::vector<std::string> FocusFlags::given() const {
