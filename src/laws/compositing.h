@@ -9,6 +9,8 @@ PETZVAL_LAWS_BEGIN
 // for the emptiness at its depth.
 PETZVAL_LAW int kEmptinessAfter = 1;
 PETZVAL_LAW int kNextLayer = 2;
+// Two samples of a pixel with at least so many layers between them belong to different surfaces.
+PETZVAL_LAW int kAnotherSurface = 6;
 PETZVAL_LAW int kEmptyLayer = 0x7fffffff;  // emptiness behind everything
 
 // A pixel with less of its lens free is full: discrete sources of an opaque surface leave so much.

@@ -13,8 +13,8 @@ namespace petzval::engine {
 // Lens area given to each pixel of a tile so far, by one sector of the pupil or all of it.
 class Budget {
 public:
-    // Starts an empty tile. Keeps its memory. another_surface: of LensLeft.
-    void start(int width, int height, int another_surface);
+    // Starts an empty tile. Keeps its memory.
+    void start(int width, int height);
 
     // Adds a layer to row y: light in proportion to the lens area it may take of the area it arrives with
     // (its a, and that of the emptiness at its depth; null: none).
@@ -42,7 +42,7 @@ public:
 private:
     static constexpr int kPadding = 16;
 
-    int width_ = 0, height_ = 0, another_surface_ = 0;
+    int width_ = 0, height_ = 0;
     Picture sum_, more_;                          // as LensLeft::Taken
     Plane before_, own_, beside_, area_of_more_;  // rows of whole registers
     Image<std::int32_t> layer_;

@@ -19,6 +19,7 @@ using Floats = hn::CappedTag<float, 16>;
 using OnePixel = hn::CappedTag<float, 4>;  // or as much of it as one register holds
 using V = hn::Vec<Floats>;
 
+using laws::kAnotherSurface;
 using laws::kNextLayer;
 #define LAW_NUMBER V
 #define LAW_FUNCTION HWY_INLINE
@@ -34,8 +35,8 @@ using laws::kNextLayer;
 struct Shares {
     V area, more;
 };
-HWY_INLINE Shares Take(Floats d, V arrives, int at_layer, int another_surface,
-                       const Budget::Left<float>& left, std::int32_t* HWY_RESTRICT layers) {
+HWY_INLINE Shares Take(Floats d, V arrives, int at_layer, const Budget::Left<float>& left,
+                       std::int32_t* HWY_RESTRICT layers) {
     const hn::Rebind<std::int32_t, Floats> signed_d;
     const hn::Rebind<std::uint32_t, Floats> unsigned_d;
     const auto arrived = hn::Gt(arrives, hn::Zero(d));
@@ -46,9 +47,9 @@ HWY_INLINE Shares Take(Floats d, V arrives, int at_layer, int another_surface,
     // Gaps longer than the one to another surface count as exactly that one.
     const auto apart = hn::BitCast(unsigned_d, hn::Sub(hn::Set(signed_d, at_layer), old_layer));
     const auto gap = hn::ConvertTo(
-        d, hn::BitCast(signed_d, hn::Min(apart, hn::Set(unsigned_d, std::uint32_t(another_surface)))));
+        d, hn::BitCast(signed_d, hn::Min(apart, hn::Set(unsigned_d, std::uint32_t(kAnotherSurface)))));
     V before = old_before, own = old_own, beside = old_beside;
-    law_meet(before, own, gap, float(another_surface));
+    law_meet(before, own, gap);
     const V of_own = at_layer == kEmptyLayer ? law_of_what_is_left(before, arrives) : arrives;
     V area, more;
     law_take(before, own, beside, arrives, of_own, area, more);
@@ -85,7 +86,7 @@ HWY_INLINE V AlphasOf(Floats d, const Rgba* HWY_RESTRICT pixels, int n) {
 }
 
 void TakeRow(const Rgba* HWY_RESTRICT light, const Rgba* HWY_RESTRICT emptiness, int layer,
-             int another_surface, Rgba* HWY_RESTRICT sum, Rgba* HWY_RESTRICT more, Budget::Left<float> left,
+             Rgba* HWY_RESTRICT sum, Rgba* HWY_RESTRICT more, Budget::Left<float> left,
              std::int32_t* HWY_RESTRICT layers, int n) {
     const Floats d;
     const int lanes = int(hn::Lanes(d));
@@ -96,8 +97,7 @@ void TakeRow(const Rgba* HWY_RESTRICT light, const Rgba* HWY_RESTRICT emptiness,
         if (emptiness) all = hn::Add(all, AlphasOf(d, emptiness + x, here));
         if (hn::AllFalse(d, hn::Gt(all, hn::Zero(d)))) continue;
         const Shares taken =
-            Take(d, all, layer, another_surface,
-                 {left.before + x, left.own + x, left.beside + x, left.more + x}, layers + x);
+            Take(d, all, layer, {left.before + x, left.own + x, left.beside + x, left.more + x}, layers + x);
         hn::Store(taken.area, d, areas);
         hn::Store(taken.more, d, mores);
         for (int i = 0; i < here; ++i)
@@ -145,8 +145,7 @@ HWY_EXPORT(TakeRow);
 HWY_EXPORT(AllSpent);
 HWY_EXPORT(AddGiven);
 
-void Budget::start(int width, int height, int another_surface) {
-    another_surface_ = another_surface;
+void Budget::start(int width, int height) {
     const int padded = whole_registers(width);
     if (width != width_ || height != height_) {
         width_ = width, height_ = height;
@@ -167,8 +166,8 @@ void Budget::start(int width, int height, int another_surface) {
 
 void Budget::take(int y, const Rgba* light, const Rgba* emptiness, int layer, Rgba* sum, Rgba* more) {
     HWY_DYNAMIC_DISPATCH(TakeRow)
-    (light, emptiness, layer, another_surface_, sum, more,
-     {before_.row(y), own_.row(y), beside_.row(y), area_of_more_.row(y)}, layer_.row(y), width_);
+    (light, emptiness, layer, sum, more, {before_.row(y), own_.row(y), beside_.row(y), area_of_more_.row(y)},
+     layer_.row(y), width_);
 }
 
 bool Budget::is_spent(float least) const {

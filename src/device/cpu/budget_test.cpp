@@ -34,10 +34,10 @@ std::vector<Layer> random_layers() {
     return layers;
 }
 
-void expect_given_what_lens_leaves(int another_surface) {
+TEST(Budget, GivesEveryPixelWhatItsLensLeaves) {
     const std::vector<Layer> layers = random_layers();
     Budget budget;
-    budget.start(kWidth, kHeight, another_surface);
+    budget.start(kWidth, kHeight);
     for (const Layer& l : layers)
         for (int y = 0; y < kHeight; ++y)
             budget.take(y, l.light.data(), y == 0 ? nullptr : l.emptiness.data(), l.layer);
@@ -46,7 +46,7 @@ void expect_given_what_lens_leaves(int another_surface) {
         std::vector<float> taken(std::size_t(Budget::whole_registers(kWidth)), 0);
         budget.add_to(y, light.data(), taken.data());
         for (std::size_t x = 0; x < kWidth; ++x) {
-            LensLeft left{.another_surface = another_surface};
+            LensLeft left;
             double sum = 0, more = 0;
             for (const Layer& l : layers) {
                 const float arrives = l.light[x].a + (y == 0 ? 0 : l.emptiness[x].a);
@@ -61,20 +61,15 @@ void expect_given_what_lens_leaves(int another_surface) {
     }
 }
 
-TEST(Budget, GivesEveryPixelWhatItsLensLeaves) {
-    for (const int another_surface : {kAnotherSurface, kAnotherKnownSurface})
-        expect_given_what_lens_leaves(another_surface);
-}
-
 TEST(Budget, IsSpentWhenEveryPixelIs) {
     Budget budget;
     std::vector<Rgba> opaque(kWidth, Rgba{1, 1, 1, 1});
     opaque.back().a = 0.99f;
-    budget.start(kWidth, 1, kAnotherSurface);
+    budget.start(kWidth, 1);
     budget.take(0, opaque.data(), nullptr, 0);
     EXPECT_FALSE(budget.is_spent(0.002f));
     EXPECT_TRUE(budget.is_spent(0.02f));
-    budget.start(kWidth, 1, kAnotherSurface);
+    budget.start(kWidth, 1);
     EXPECT_FALSE(budget.is_spent(0.5f)) << "started anew";
 }
 

@@ -73,8 +73,7 @@ public:
           first_layer_(plan.tiles[tile].first_layer),
           last_layer_(plan.tiles[tile + 1].first_layer),
           w_(w) {
-        for (int c = 0; c < sectors_; ++c)
-            w.budgets[std::size_t(c)].start(tile_.width(), tile_.height(), plan.rule.another_surface);
+        for (int c = 0; c < sectors_; ++c) w.budgets[std::size_t(c)].start(tile_.width(), tile_.height());
         w.coarse.resize(plan.levels.size());
     }
     // Returns the number of stamped taps.

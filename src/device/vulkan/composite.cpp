@@ -32,9 +32,8 @@ struct Push {
     std::uint32_t first_layer = 0, first_run = 0, first_arrival = 0;
     std::uint32_t records = 0;
     std::uint32_t held_row = 0, held_width = 0, held_samples = 0;
-    std::uint32_t another_surface = 0;
 };
-static_assert(sizeof(Push) == 52);
+static_assert(sizeof(Push) == 48);
 
 // Tiles begin…end - 1 of a plan.
 struct Batch {
@@ -94,7 +93,6 @@ private:
         push.held_row = held.row, push.held_width = held.width, push.held_samples = held.samples;
         const Piece holdout = recording.uploaded(std::span<const std::uint32_t>(held.words));
         push.records = kernels.records;
-        push.another_surface = std::uint32_t(plan_.rule.another_surface);
         const std::size_t tiles = batch.end - batch.begin, pixels = batch.sectors * kTilePixels;
         Heap& heap = context_.heap();
         const Piece light = heap.allocate(Kind::OnDevice, pixels * sizeof(Rgba)),

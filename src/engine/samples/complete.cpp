@@ -231,12 +231,12 @@ CompletedPicture::CompletedPicture(const EngineView& input, View<const unsigned 
         parts_ = std::make_unique<FlatPicture>(input, connected, dim);
 }
 
-void share_lens_area(CocSamples& samples, int another_surface, Workers& workers) {
+void share_lens_area(CocSamples& samples, Workers& workers) {
     parallel_for(samples.height(), workers, [&](int y) {
         const std::size_t row = std::size_t(y) * std::size_t(samples.width);
         for (std::size_t i = row; i < row + std::size_t(samples.width); ++i) {
             float open = 1;
-            LensLeft left{.another_surface = another_surface};
+            LensLeft left;
             LayersOfPixel layers(true);
             bool dimmed_in_layer = false, full_in_layer = false;
             int layer = std::numeric_limits<int>::min();

@@ -50,7 +50,6 @@ private:
 // front of them. An opaque sample takes the rest of the lens anyway, and rays that pass its occluders see all
 // of it; only translucent samples composited in its own layer (engine/scatter/sources.h) dim it, and it hides
 // the rest of that layer. Call it after highlights were taken out: they find their occluders themselves.
-// another_surface: as in LensLeft.
-void share_lens_area(CocSamples& samples, int another_surface, Workers& workers);
+void share_lens_area(CocSamples& samples, Workers& workers);
 
 }  // namespace petzval::engine

@@ -17,9 +17,6 @@ using laws::kEmptinessAfter;
 using laws::kNextLayer;
 inline bool is_emptiness(int layer) { return layer % kNextLayer != 0; }
 using laws::kEmptyLayer;  // the emptiness behind everything
-// Two samples of a pixel belong to different surfaces if at least so many layers lie between them. Parts of
-// an estimated surface lie farther apart than parts of a known one.
-constexpr int kAnotherSurface = 5 * kNextLayer, kAnotherKnownSurface = 3 * kNextLayer;
 
 // The layers of one pixel's samples, nearest first. A sample behind an opaque one gets a later layer:
 //

@@ -26,7 +26,7 @@ namespace petzval::engine {
 //
 //   next sample                              treated as
 //   in the next interval of radius           the same surface
-//   `another_surface` layers later           another surface
+//   `kAnotherSurface` layers later           another surface
 //   between                                  a mixture of both
 //
 // If all surfaces side by side would fill the lens, the remaining area is returned to them in proportion to
@@ -37,7 +37,6 @@ struct LensLeft {
     float beside = 1;  // free area if all surfaces lay side by side
     float more = 0;    // sum of the areas that surfaces lost compared with side by side
     int layer = 0;     // layer of the current surface
-    int another_surface = kAnotherSurface;
 
     struct Taken {
         float area = 0, more = 0;
@@ -47,7 +46,7 @@ struct LensLeft {
     void meet(int at_layer) {
         // (The difference to the layer of emptiness may overflow an int; unsigned numbers wrap.)
         const float gap = float(unsigned(at_layer) - unsigned(layer));
-        laws::law_meet(before, own, gap, float(another_surface));
+        laws::law_meet(before, own, gap);
         layer = at_layer;
     }
     // A sample arrives with that lens area; emptiness behind everything with a fraction of the rest.

@@ -55,16 +55,16 @@ private:
 // Number of surfaces, one behind the other, that reach a tile.
 class SurfaceCount {
 public:
-    explicit SurfaceCount(int another_surface) : apart_(another_surface - kNextLayer) {}
     void add(int layer) {
         // (The difference to the layer of emptiness may overflow an int; unsigned numbers wrap.)
-        if (count_ == 0 || int(unsigned(layer) - unsigned(last_)) >= apart_) ++count_;
+        if (count_ == 0 || int(unsigned(layer) - unsigned(last_)) >= kApart) ++count_;
         last_ = layer;
     }
     int count() const { return count_; }
 
 private:
-    int apart_;  // in layers; surfaces closer than this count as one sloping surface
+    static constexpr int kApart =
+        laws::kAnotherSurface - kNextLayer;  // closer ones count as one sloping surface
     int count_ = 0, last_ = 0;
 };
 
@@ -77,7 +77,7 @@ public:
     void find(const Rect& tile, TileDraft& draft) {
         draft.restart();
         find_sources(tile);
-        SurfaceCount surfaces(plan_.rule.another_surface);
+        SurfaceCount surfaces;
         for (const std::uint64_t key : keys_) surfaces.add(layer_of_key(key));
         if (surfaces.count() >= plan_.rule.surfaces_for_sectors) draft.sectors = plan_.rule.sectors();
         draft.arrivals.reserve(keys_.size());
@@ -296,14 +296,12 @@ LevelRule level_rule(const EngineView& input) {
             rule = {.largest_cells = 8, .surfaces_for_sectors = 2};
             break;
         case Quality::Final:
-            rule = {.largest_cells = 12, .surfaces_for_sectors = 2, .inner_sectors = 1, .outer_sectors = 5};
+            rule = {.largest_cells = 12, .surfaces_for_sectors = 2, .inner_sectors = 3, .outer_sectors = 13};
             break;
     }
     rule.hidden_known = !input.samples.deep.empty();
-    if (rule.hidden_known && input.options.quality != Quality::Draft) {
-        rule.another_surface = kAnotherKnownSurface;
+    if (rule.hidden_known && input.options.quality != Quality::Draft)
         rule.inner_sectors = 3, rule.outer_sectors = 13;
-    }
     return rule;
 }
 

@@ -28,9 +28,8 @@ struct LevelRule {
     // least this many reach a tile, sectors of the pupil are composited each on its own.
     int surfaces_for_sectors = 3;
     bool hidden_known = false;  // true if hidden surfaces are given, not estimated (samples/layers.h)
-    int another_surface = kAnotherSurface;  // in layers; see LensLeft
     // Sectors of equal light that the pupil is taken in: in the middle, and around that.
-    int inner_sectors = 0, outer_sectors = 4;
+    int inner_sectors = 1, outer_sectors = 5;
     int sectors() const { return inner_sectors + outer_sectors; }
     static constexpr int kMostSectors = 16;
     // The first levels follow each other this closely: what levels cost falls with the radius, so that wider

@@ -213,8 +213,7 @@ private:
         taken = take_highlights(rows, split_, strip.first_row + y0, kLargestSquare,
                                 *strip.input.services.workers);
         for (Highlight& h : taken) h.y += y0;
-        if (strip.input.samples.deep_dims_itself)
-            share_lens_area(rows, rule_.another_surface, *strip.input.services.workers);
+        if (strip.input.samples.deep_dims_itself) share_lens_area(rows, *strip.input.services.workers);
         found.casters.add(y0, rows);
     }
     // The samples without highlights. They are held at once only for layers; otherwise each is made when

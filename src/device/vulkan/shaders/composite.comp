@@ -19,7 +19,6 @@ layout(push_constant) uniform Push {
     uint first_layer, first_run, first_arrival;  // numbers of the first of each
     uint records;                                // where records of kernels begin in `kernels`
     uint held_rows, held_width, held_samples;    // row 0 of the holdout, its width; where samples begin
-    uint another_surface;                        // of LensLeft
 } at;
 
 const int kSide = kGroupSide, kChunk = kGroup, kBlocks = 8, kTileWords = 8, kLayerWords = 5, kRunWords = 3;
@@ -252,7 +251,7 @@ struct LensLeft {
 float free(LensLeft left) { return law_free(left.before, left.own); }
 // The lens area taken, and the further area that side-by-side composition would take.
 vec2 take(inout LensLeft left, float arrives, int layer) {
-    law_meet(left.before, left.own, float(uint(layer) - uint(left.layer)), float(at.another_surface));
+    law_meet(left.before, left.own, float(uint(layer) - uint(left.layer)));
     left.layer = layer;
     const float of_own = layer == kEmptyLayer ? law_of_what_is_left(left.before, arrives) : arrives;
     float area = 0, more = 0;
