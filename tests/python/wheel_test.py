@@ -2,6 +2,7 @@
 
 Usage: wheel_test.py LIBPETZVAL.SO
 """
+import os
 import pathlib
 import shutil
 import subprocess
@@ -24,6 +25,8 @@ picture.data[8, 8, 1] = 1
 image = petzval.defocus(picture, radii_px=radii).image
 print(petzval.__file__, sum(image.data[y, x, 1] for y in range(16) for x in range(16)))
 """
+# What a library with a sanitizer needs of the host; empty otherwise.
+SANITIZER = {name: os.environ[name] for name in ("LD_PRELOAD", "ASAN_OPTIONS", "TSAN_OPTIONS") if name in os.environ}
 library = ""
 
 
@@ -50,7 +53,7 @@ class Wheel(unittest.TestCase):
         subprocess.run([*pip, "install", "--quiet", "--no-index", "--no-deps", "--target", target, self.made()],
                        check=True)
         out = subprocess.run([sys.executable, "-S", "-c", FRAME], check=True, capture_output=True, text=True,
-                             env={"PYTHONPATH": str(target)}, cwd=self.folder).stdout
+                             env={"PYTHONPATH": str(target), **SANITIZER}, cwd=self.folder).stdout
         place, light = out.split()
         self.assertTrue(place.startswith(str(target)))
         self.assertAlmostEqual(float(light), 1, delta=1e-4)
