@@ -19,7 +19,7 @@ set(petzval_alone
     "src/lens_facts/lens_section"
     "src/session/(take_test|session|add_glare_test)"
     "src/files/(raster/tiff|channels/(depth_choice|motion_choice_test|layer_choice.*)|exr/hostile_exr_test|exr_write/deep_write|read_frame.*)"
-    "src/lens_sheet/.*"
+    "src/lens_sheet/(control_ring|disc_strip|drawn_section|field_curves|field_discs|image_formation|spot_figures|sum_of_discs|texture_figures)"
     "src/shot/(shot_camera|shot_test|seen_elsewhere_test|other_lamps_test)"
     "src/scene/((built_in/|gltf/)?[^_/]+|points/[^_]+)"
     "apps/view/(state/fields|make/maker|lens/section_panel|panels/(menu|timeline_panel))"

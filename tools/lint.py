@@ -78,9 +78,9 @@ def each_alone(entries):
 
 
 def commands_of(build):
-    """A folder with the commands of the build that clang takes: GCC's precompiled headers are not its own."""
+    """A folder with the commands of the build that clang takes: GCC's precompiled headers and parameters are not its own."""
     text = (ROOT / build / "compile_commands.json").read_text()
-    text = re.sub(r" -Winvalid-pch| -fpch-preprocess|( -Xclang)? -include(-pch)?( -Xclang)? \S*cmake_pch\S*", "", text)
+    text = re.sub(r" -Winvalid-pch| -fpch-preprocess| --param \S+|( -Xclang)? -include(-pch)?( -Xclang)? \S*cmake_pch\S*", "", text)
     entries = list(each_alone(json.loads(text)))
     (ROOT / build / "lint").mkdir(exist_ok=True)
     (ROOT / build / "lint" / "compile_commands.json").write_text(json.dumps(entries, indent=1))
