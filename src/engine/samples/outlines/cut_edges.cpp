@@ -51,7 +51,7 @@ public:
         for (std::size_t i = 0; i < ends_.size(); ++i) {
             const int other = partner[i];
             if (other < 0 || partner[std::size_t(other)] != int(i)) {
-                if (ends_[i].goes_on_alone) edges.push_back(alone(int(i)));
+                edges.push_back(alone(int(i)));
             } else if (other > int(i)) {
                 edges.push_back(between(ends_[i], ends_[std::size_t(other)]));
             }
@@ -86,12 +86,15 @@ private:
                 }
         return best;
     }
+    // It counts the less the shorter its direction is known: an edge that comes and goes with single pixels
+    // must not move what is behind.
     CutEdges::Edge alone(int number) const {
         const EdgeEnd& e = ends_[std::size_t(number)];
         const CompletionModel& model = completion_model;
-        const float length_px =
-            std::min({hidden_px_[std::size_t(number)] + model.end_px, e.known_px, model.continues_px});
-        return {{e.at.x, e.at.y}, e.off_x, e.off_y, e.into_x, e.into_y, length_px, e.coc_px, e.strength};
+        const float known_px = std::min(e.known_px, model.continues_px);
+        const float length_px = std::min(hidden_px_[std::size_t(number)] + model.end_px, known_px);
+        const float strength = e.strength * known_px / model.continues_px;
+        return {{e.at.x, e.at.y}, e.off_x, e.off_y, e.into_x, e.into_y, length_px, e.coc_px, strength};
     }
     static CutEdges::Edge between(const EdgeEnd& a, const EdgeEnd& b) {
         const float x = float(b.at.x - a.at.x) + b.off_x - a.off_x,
@@ -113,7 +116,7 @@ private:
 
 CutEdges::CutEdges(const LitPicture& picture, View<const float> radii, const Mixtures& mixtures, float white,
                    float to_px, Workers& workers) {
-    if (white <= 0 || to_px < 0 || mixtures.empty()) return;
+    if (white <= 0 || to_px < 0 || completion_model.continues_px <= 0 || mixtures.empty()) return;
     const EdgeEnds ends(picture, radii, mixtures, white, workers);
     edges_ =
         EdgeJoiner(ends, ends.find(mixtures, to_px, workers), radii.width(), radii.height()).joined(workers);

@@ -14,7 +14,6 @@ namespace {
 
 constexpr int kMostTraced = 32;  // upper limit of edge_traced_px
 constexpr int kLeastTraced = 3;
-constexpr float kLeastKnownPx = 20;  // known_px of an edge that continues without a second end
 
 // The line through points that are one row apart: least squares.
 struct Line {
@@ -153,7 +152,6 @@ bool EdgeEnds::end_at(const Place& start, int side, EdgeEnd& end) const {
     end.coc_px = radii_(end.at.x, end.at.y);
     end.strength = rise(change, model.edge_change, 2 * model.edge_change);
     end.known_px = model.end_px / slope_error;
-    end.goes_on_alone = end.known_px >= kLeastKnownPx;
     return true;
 }
 

@@ -18,7 +18,6 @@ struct EdgeEnd {
     float coc_px;          // radius of its surface
     float strength;        // 0…1, by its contrast and the length that is visible
     float known_px;        // distance at which its direction errs by end_px
-    bool goes_on_alone;    // false if so few pixels of it are visible that only another end confirms it
 
     // The pixel that the continuation reaches after t pixels.
     PixelAt ahead(float t) const;
