@@ -25,7 +25,7 @@ picture.data[8, 8, 1] = 1
 image = petzval.defocus(picture, radii_px=radii).image
 print(petzval.__file__, sum(image.data[y, x, 1] for y in range(16) for x in range(16)))
 """
-# What a library with a sanitizer needs of the host; empty otherwise.
+# The variables that load the runtime of a sanitizer; empty without a sanitizer.
 SANITIZER = {name: os.environ[name] for name in ("LD_PRELOAD", "ASAN_OPTIONS", "TSAN_OPTIONS") if name in os.environ}
 library = ""
 

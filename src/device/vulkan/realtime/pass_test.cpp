@@ -32,8 +32,8 @@ TEST(RealtimeLens, CountsOneOfAPlaneAtEveryRadius) {
         ASSERT_EQ(lens.fours.size(), RealtimeLens::kWeights + RealtimeLens::kOfZone);
         EXPECT_EQ(lens.fours[0].r, float(taps));
         constexpr std::size_t kShares = RealtimeLens::kShares, kOfSet = RealtimeLens::kMostTaps * kShares;
-        for (std::size_t set = 0; set < 2 * std::size_t(RealtimeLens::kSets);
-             ++set)  // in front of focus, then behind it
+        // In front of focus, then behind it.
+        for (std::size_t set = 0; set < 2 * std::size_t(RealtimeLens::kSets); ++set)
             for (std::size_t share = 0; share < kShares; ++share) {
                 float sum = 0;
                 for (std::size_t i = 0; i < std::size_t(taps); ++i)

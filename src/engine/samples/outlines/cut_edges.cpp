@@ -14,8 +14,8 @@ namespace petzval::engine {
 namespace {
 
 constexpr int kCell = 16;  // pixels on a side
-constexpr float kAroundPx =
-    16;  // an edge stands between points that are so much farther from it than half its length
+// An edge concerns hidden points that are at most this much farther from it than half its length.
+constexpr float kAroundPx = 16;
 
 int cell_of(int at, int cells) { return std::clamp(at / kCell, 0, cells - 1); }
 

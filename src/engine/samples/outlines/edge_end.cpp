@@ -84,7 +84,7 @@ float EdgeEnds::change_at(const Place& place) const {
 // three pixels, and its centre is the edge.
 bool EdgeEnds::point_at(const Place& place, Point& point) const {
     const float here = change_at(place), size = std::abs(here);
-    if (size == 0) return false;
+    if (!(size > 0)) return false;  // (nor is NaN an edge)
     const auto beside = [&](int by) {
         return std::max(0.0f, std::copysign(1.0f, here) * change_at(place.moved(0, by)));
     };
