@@ -75,9 +75,9 @@ def demo(*_):
     print(shown)
 
 
-def build(preset="release", *targets):
+def build(*words):
     """[preset] [target…]: configures and builds (presets: release, debug, clang, asan, tsan, scalar, plain, core, no-tbb, portable, fuzz)"""
-    make(preset, *targets)
+    make(*[word for word in words if word != "--preset"] or ["release"])
 
 
 def test(*words):
