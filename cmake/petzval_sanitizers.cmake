@@ -6,7 +6,8 @@ if(CMAKE_CXX_FLAGS MATCHES "fsanitize=(address|thread)" AND PETZVAL_TESTS)
   string(SUBSTRING ${CMAKE_MATCH_1} 0 1 petzval_sanitizer)
   string(APPEND petzval_sanitizer san)
   set(petzval_test_seconds 9000)
-  # The runtime is a shared library (-shared-libsan), because an interpreter must load it before our libraries.
+  # The runtime is a shared library, because an interpreter must load it before our libraries.
+  add_link_options(-shared-libsan)
   execute_process(COMMAND ${CMAKE_CXX_COMPILER} -print-file-name=libclang_rt.${petzval_sanitizer}-x86_64.so
                   OUTPUT_VARIABLE runtime OUTPUT_STRIP_TRAILING_WHITESPACE)
   if(NOT EXISTS "${runtime}")
