@@ -25,8 +25,9 @@ const int kGatheredBack = 0, kGatheredNear = 1, kGatheredArea = 2;            //
 vec4 light_of(vec4 colour) { return clamp(colour, vec4(0), vec4(kMostLight)); }
 // The colour if it is finite: a host's picture may hold infinity, which would spread.
 vec4 finite_of(vec4 colour) {
-    const vec4 most = clamp(colour, vec4(-kMostLight), vec4(kMostLight));
-    return mix(mix(colour, most, isinf(colour)), vec4(0), isnan(colour));
+    const uvec4 bits = floatBitsToUint(colour) & 0x7fffffffu;
+    if (max(max(bits.x, bits.y), max(bits.z, bits.w)) < 0x7f800000u) return colour;
+    return mix(clamp(colour, vec4(-kMostLight), vec4(kMostLight)), vec4(0), greaterThan(bits, uvec4(0x7f800000u)));
 }
 float brightness(vec4 light) { return light.r + light.g + light.b; }
 float radius_of(float depth) {
@@ -39,9 +40,14 @@ float with_mark(float radius, bool is_marked) {
     return unpackHalf2x16(is_marked ? bits | 1u : bits & ~1u).x;
 }
 bool has_mark(float stored) { return (packHalf2x16(vec2(stored, 0)) & 1u) != 0u; }
+// smoothstep() between two constants, without its division.
+float ramp(float from, float to, float x) {
+    const float part = clamp((x - from) * (1 / (to - from)), 0.0, 1.0);
+    return part * part * (3 - 2 * part);
+}
 // The share of light at this radius that cells draw; the rest is blurred pixel by pixel.
 const float kWholePx = 3.5;  // from there on they draw all
-float blurred_share(float radius_px) { return smoothstep(2.0, kWholePx, radius_px); }
+float blurred_share(float radius_px) { return ramp(2.0, kWholePx, radius_px); }
 // The radius if light at this radius is blurred pixel by pixel, 0 if not.
 float pixelwise(float radius_px) { return radius_px > 0.5 && radius_px < kWholePx ? radius_px : 0.0; }
 // The radius that cells gather over: with the blur of the cells themselves (boxes and tents of two pixels)

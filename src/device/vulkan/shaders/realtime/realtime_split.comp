@@ -16,6 +16,8 @@ layout(std430, binding = 8) writeonly buffer Lamps { uvec4 lamps[]; };  // by ti
 #include "realtime.glsl"
 #include "realtime_lamps.glsl"
 
+const int kAcross = kTile + 2;
+shared float window[kAcross * kAcross];  // signed radii by depth, of the tile's pixels and those around it
 shared vec4 part[kLayers][64];
 shared vec4 radii[64];
 shared uint lamp_cells[2], lamp_px;  // as bits: they are ordered as floats are
@@ -69,11 +71,42 @@ float share_of(vec4 near, vec4 light, vec4 behind) {
     return share > 0.02 && share * length(most) > kAlike * length(more) ? share : 0.0;
 }
 
-// The signed radius of a pixel. A silhouette pixel shows a near surface and its background, and may have the background's
-// depth. It gets the near surface's radius if that gives most of its light; or if that is hardly blurred, because the
-// pixel is then part of a sharp outline. `radius`: that of its depth.
+// Reads the window. All invocations of the group call it together.
+void read_window() {
+    const ivec2 tile = kTile * ivec2(gl_WorkGroupID.xy), cell = 2 * ivec2(gl_LocalInvocationID.xy);
+    for (int i = 0; i < 4; ++i) {
+        const ivec2 place = cell + ivec2(i & 1, i >> 1), pixel = min(tile + place, at.size - 1);
+        window[(place.y + 1) * kAcross + place.x + 1] = radius_of(texelFetch(depths, pixel, 0).r);
+    }
+    const int kSide = kAcross - 1;  // each side of the rim without its last pixel
+    for (int i = int(gl_LocalInvocationIndex); i < 4 * kSide; i += 64) {
+        const int side = i / kSide, along = i - side * kSide, back = side < 2 ? along : kSide - along;
+        const ivec2 place = (side & 1) == 0 ? ivec2(back, side < 2 ? 0 : kSide) : ivec2(side < 2 ? kSide : 0, back);
+        const ivec2 pixel = clamp(tile + place - 1, ivec2(0), at.size - 1);
+        window[place.y * kAcross + place.x] = radius_of(texelFetch(depths, pixel, 0).r);
+    }
+    barrier();
+}
+
+// The smallest radius of 3 x 3 pixels around each of a cell's four. place: that of its first in the window.
+vec4 nearest_around(int place) {
+    vec2 rows[4];
+    for (int y = 0; y < 4; ++y) {
+        const int i = place + (y - 1) * kAcross;
+        rows[y] = min(vec2(window[i - 1], window[i + 2]), vec2(min(window[i], window[i + 1])));
+    }
+    const vec2 middle = min(rows[1], rows[2]);
+    return vec4(min(rows[0], middle), min(rows[3], middle));
+}
+
+const float kApart = 0.4;  // pixels: radii that differ by less are blurred alike
+
+// The signed radius of a pixel of the tile. A silhouette pixel shows a near surface and its background, and
+// may have the background's depth. It gets the near surface's radius if that gives most of its light; or if that is hardly
+// blurred, because the pixel is then part of a sharp outline. `radius`: that of its depth.
 float own_radius(ivec2 pixel, vec4 light, float radius) {
-    const float kApart = 0.4;  // pixels: less is blurred alike
+    const ivec2 in_window = pixel - kTile * ivec2(gl_WorkGroupID.xy) + 1;
+    const int place = in_window.y * kAcross + in_window.x;
     const float kSharpPx = 2;
     const float own = brightness(light);
     vec4 bright = light, dark = light;
@@ -82,10 +115,9 @@ float own_radius(ivec2 pixel, vec4 light, float radius) {
     // Loops, because nine pixels at once need half as many registers again.
     [[dont_unroll]] for (int y = -1; y <= 1; ++y)
         [[dont_unroll]] for (int x = -1; x <= 1; ++x) {
-            const ivec2 there = clamp(pixel + ivec2(x, y), ivec2(0), at.size - 1);
-            const float reaches = radius_of(texelFetch(depths, there, 0).r);
+            const float reaches = window[place + y * kAcross + x];
             if (reaches > radius - kApart) continue;
-            const vec4 colour = light_of(texelFetch(colours, there, 0));
+            const vec4 colour = light_of(texelFetch(colours, clamp(pixel + ivec2(x, y), ivec2(0), at.size - 1), 0));
             if (brightness(colour) > brightness(bright)) bright = colour, found.x = reaches, to_bright = ivec2(x, y);
             if (brightness(colour) < brightness(dark)) dark = colour, found.y = reaches, to_dark = ivec2(x, y);
         }
@@ -110,41 +142,56 @@ float counts_of(vec4 light) { return clamp(sqrt(at.exposure * brightness(light))
 void main() {
     const uint own = gl_LocalInvocationIndex;
     const ivec2 cell = ivec2(gl_GlobalInvocationID.xy), local = ivec2(gl_LocalInvocationID.xy);
+    read_window();
     measure_around();
     vec4 near_light = vec4(0), back_light = vec4(0);
     float near_area = 0, near_radius = 0, near_counts = 0, back_area = 0, back_weight = 0, back_radius = 0, back_counts = 0;
     vec4 range = vec4(0, 0, 0, -at.most_px);  // realtime_reach.comp: tiles; the last with its sign turned
     vec2 lamp_place = vec2(0);
     vec4 lamp = vec4(0), own_radii;
+    const int first_place = (2 * local.y + 1) * kAcross + 2 * local.x + 1;
+    const vec4 nearest = nearest_around(first_place);
     for (int i = 0; i < 4; ++i) {
         // Continues the border beyond the picture.
         const ivec2 corner = ivec2(i & 1, i >> 1), pixel = min(2 * cell + corner, at.size - 1);
+        const bool is_inside = pixel == 2 * cell + corner;
         vec4 light = light_of(texelFetch(colours, pixel, 0));
-        const float of_depth = radius_of(texelFetch(depths, pixel, 0).r), radius = own_radius(pixel, light, of_depth);
+        const int place = first_place + (i >> 1) * kAcross + (i & 1);
+        const float of_depth = window[place];
+        float radius = of_depth;
+        if (nearest[i] <= of_depth - kApart || !is_inside) radius = own_radius(pixel, light, of_depth);
         own_radii[i] = with_mark(radius, radius != of_depth);
+        const float drawn = blurred_share(abs(radius));  // by cells
         const vec4 bright = lamp_of(pixel, light);
-        light -= bright;
-        if (pixel == 2 * cell + corner) {
-            const vec4 taken = blurred_share(abs(radius)) * bright;
-            lamp += taken;
-            lamp_place += brightness(taken) * (vec2(corner) + 0.5);
+        if (bright != vec4(0)) {
+            light -= bright;
+            if (is_inside) {
+                const vec4 taken = drawn * bright;
+                lamp += taken;
+                lamp_place += brightness(taken) * (vec2(corner) + 0.5);
+            }
         }
         // A quarter of a pixel marks tiles with light in focus, which `combine` may continue behind near surfaces.
         const float behind_px = abs(radius) > 0.5 ? pixelwise(radius) : 0.25;
         range = max(range, vec4(-radius, behind_px, pixelwise(-radius), -radius));
-        const float near = 0.25 * blurred_share(-radius), back = 0.25 * smoothstep(-2.5, -2.0, radius);
-        near_light += near * light, near_area += near;
-        // The brighter light decides the mean radius of a cell with two depths.
-        const float near_count = near * counts_of(light);
-        near_counts += near_count;
-        near_radius += near_count * gathered_radius(radius);
-        // Light in focus hardly counts, or a tap between two cells would gather it.
-        const float drawn = blurred_share(radius), weight = back * max(2 * drawn / (1 + drawn), 1e-3);
-        back_light += weight * light, back_area += back, back_weight += weight;
-        // Emptiness has the radius of the surface beside it, or that surface would be blurred by the radius
-        // of emptiness.
-        const float counts = weight * clamp(light.a, 1e-3, 1.0);
-        back_counts += counts, back_radius += counts * (radius > 0.5 ? gathered_radius(radius) : 0.0);
+        if (radius < -2) {
+            const float near = 0.25 * drawn;
+            near_light += near * light, near_area += near;
+            // The brighter light decides the mean radius of a cell with two depths.
+            const float near_count = near * counts_of(light);
+            near_counts += near_count;
+            near_radius += near_count * gathered_radius(radius);
+        }
+        if (radius > -2.5) {
+            // Light in focus hardly counts, or a tap between two cells would gather it.
+            const float back = 0.25 * ramp(-2.5, -2.0, radius), shown = radius > 0 ? drawn : 0.0;
+            const float weight = back * max(2 * shown / (1 + shown), 1e-3);
+            back_light += weight * light, back_area += back, back_weight += weight;
+            // Emptiness has the radius of the surface beside it, or that surface would be blurred by the radius
+            // of emptiness.
+            const float counts = weight * clamp(light.a, 1e-3, 1.0);
+            back_counts += counts, back_radius += counts * (radius > 0.5 ? gathered_radius(radius) : 0.0);
+        }
     }
     keep_lamp(cell, lamp, lamp_place);
     part[kBackLight][own] = back_light;
