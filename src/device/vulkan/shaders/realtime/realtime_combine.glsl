@@ -10,7 +10,7 @@ layout(std430, binding = 8) readonly buffer Reach { vec4 reach[]; };  // realtim
 #include "realtime.glsl"
 
 float radius_at(ivec2 pixel) {
-    return texelFetch(cells, ivec3(pixel / 2, kRadii), 0)[(pixel.y & 1) * 2 + (pixel.x & 1)];
+    return texelFetch(cells, ivec3(pixel >> 1, kRadii), 0)[(pixel.y & 1) << 1 | pixel.x & 1];
 }
 #include "realtime_sprites.glsl"
 
@@ -19,34 +19,47 @@ float radius_at(ivec2 pixel) {
 const int kRim = 3, kAcross = 8 + 2 * kRim, kSquare = 2 * kRim + 1;  // pixels
 shared vec4 window[kAcross * kAcross];
 shared vec2 window_discs[kAcross * kAcross];  // signed reach, at least half a pixel; light that a pixel of the disc gets
-shared uint widest_px[2];  // as bits, of pixels in the window that are blurred pixel by pixel: behind focus, in front of it
+// Radii of the window's pixels, as bits. widest_px: the largest of those blurred pixel by pixel behind focus, of those in
+// front of it, and of all in front of it. farthest_px: the smallest in front of focus; 0 if a pixel is behind it.
+shared uint widest_px[3], farthest_px;
 const int kToRight = kRim * kSquare + kRim + 1;
 shared float inside[kSquare * kSquare];  // by offset, from (-kRim, -kRim): half a pixel less the distance
 float of_each(float radius_px) {
     return (1 - blurred_share(radius_px)) / max(1.0, 3.14159 * radius_px * radius_px);
 }
-// A disc covers a pixel half at this distance between their middles, with the radius's sign: a circle's rim bends away
-// from a square's side.
-float reach_of(float radius) {
-    const float all = max(abs(radius), 0.5), reach = max(all - 1 / (24 * all), 0.5);
-    return radius < 0 ? -reach : reach;
+// The signed reach of a disc, and the light that each of its pixels gets. A disc covers a pixel half if their middles are
+// as far apart as its reach: a circle's rim bends away from a square's side.
+vec2 disc_of(float radius) {
+    const float all = abs(radius);
+    if (all <= 0.5) return vec2(radius < 0 ? -0.5 : 0.5, 1);
+    const float reach = max(all - 1 / (24 * all), 0.5);
+    return vec2(radius < 0 ? -reach : reach, all < kWholePx ? of_each(all) : 0.0);
 }
 // Reads the window; all invocations of the group call it together.
 void read_window() {
     const int own = int(gl_LocalInvocationIndex);
     const ivec2 first = 8 * ivec2(gl_WorkGroupID.xy) - kRim;
     vec2 widest = vec2(0);
-    if (own < 2) widest_px[own] = 0u;
+    float nearest = 0, farthest = at.most_px;
+    if (own < 3) widest_px[own] = 0u;
+    if (own == 3) farthest_px = floatBitsToUint(at.most_px);
+    ivec2 place = ivec2(own % kAcross, own / kAcross);
     for (int i = own; i < kAcross * kAcross; i += 64) {
-        const ivec2 there = clamp(first + ivec2(i % kAcross, i / kAcross), ivec2(0), at.size - 1);
+        const ivec2 there = clamp(first + place, ivec2(0), at.size - 1);
         const float radius = radius_at(there);
+        const vec2 disc = disc_of(radius);
         window[i] = finite_of(texelFetch(colours, there, 0));
-        window_discs[i] = vec2(reach_of(radius), of_each(abs(radius)));
+        window_discs[i] = disc;
         widest = max(widest, vec2(pixelwise(radius), pixelwise(-radius)));
+        nearest = max(nearest, -radius), farthest = min(farthest, -disc.x);
+        place += ivec2(64 % kAcross, 64 / kAcross);
+        if (place.x >= kAcross) place += ivec2(-kAcross, 1);
     }
     barrier();
     for (int i = 0; i < 2; ++i)
         if (widest[i] > 0) atomicMax(widest_px[i], floatBitsToUint(widest[i]));
+    if (nearest > 0) atomicMax(widest_px[2], floatBitsToUint(nearest));
+    atomicMin(farthest_px, floatBitsToUint(max(farthest, 0.0)));
     if (own < kSquare * kSquare) inside[own] = 0.5 - length(vec2(own % kSquare - kRim, float(own / kSquare - kRim) / at.aspect));
 }
 // Offsets of pixels that a disc reaches.
@@ -140,31 +153,37 @@ float reveal(int own, float radius) {
     barrier();
     return radius;
 }
-Fine fine(float radius, float back_px, float near_px, bool has_near) {
-    const int own = (int(gl_LocalInvocationID.y) + kRim) * kAcross + int(gl_LocalInvocationID.x) + kRim;
-    if (has_near) radius = reveal(own, radius);
-    Fine sum = Fine(window[own], vec4(0), 0, 0);
-    vec4 back = vec4(0);
-    float back_area = 0;
-    const float opening = reach_of(max(radius, 0.0)), of_opening = of_each(max(radius, 0.0));
-    int far = last_offset(back_px);
-    for (int y = -far; y <= far; ++y) {
-        int there = own + y * kAcross - far, i = (y + kRim) * kSquare + kRim - far;
-        for (const int last = there + 2 * far; there <= last; ++there, ++i) {
-            const vec2 disc = window_discs[there];
-            const float area = clamp(min(disc.x, opening) + inside[i], 0.0, 1.0) * max(disc.y, of_opening);
-            back += area * window[there];
-            back_area += area;
-        }
-    }
-    far = last_offset(near_px);  // 0: what is in focus, a little before it
+// Adds the near part of a pixel: `area` of its lens, at most 1.
+void add_near(int own, float near_px, inout Fine sum) {
+    const int far = last_offset(near_px);  // 0: what is in focus, a little before it
     for (int y = -far; y <= far; ++y) {
         int there = own + y * kAcross - far, i = (y + kRim) * kSquare + kRim - far;
         for (const int last = there + 2 * far; there <= last; ++there, ++i) {
             const vec2 disc = window_discs[there];
             const float area = disc.y * clamp(inside[i] - disc.x, 0.0, 1.0);
+            if (area == 0) continue;
             sum.near += area * window[there];
             sum.area += area;
+        }
+    }
+    // The covered area of a disc, counted pixel by pixel, is right to 4 %.
+    if (sum.area > 1) sum.near /= sum.area, sum.area = 1;
+}
+// Adds the rest of it. Pixels whose discs are wider than its own are seen through its own.
+void add_back(int own, float radius, float back_px, inout Fine sum) {
+    sum.back = window[own];
+    vec4 back = vec4(0);
+    float back_area = 0;
+    const vec2 opening = disc_of(max(radius, 0.0));
+    const int far = min(last_offset(back_px), last_offset(max(at.aspect, 1.0) * radius));
+    for (int y = -far; y <= far; ++y) {
+        int there = own + y * kAcross - far, i = (y + kRim) * kSquare + kRim - far;
+        for (const int last = there + 2 * far; there <= last; ++there, ++i) {
+            const vec2 disc = window_discs[there];
+            const float area = clamp(min(disc.x, opening.x) + inside[i], 0.0, 1.0) * max(disc.y, opening.y);
+            if (area == 0) continue;
+            back += area * window[there];
+            back_area += area;
         }
     }
     if (back_area > 1e-3) {
@@ -175,42 +194,60 @@ Fine fine(float radius, float back_px, float near_px, bool has_near) {
         if (behind.area > 0) sum.back = behind.light, sum.back_area = behind.sharp;
         else if (sum.area > 0) sum.back = sum.near / sum.area;
     }
-    // The covered area of a disc, counted pixel by pixel, is right to 4 %.
-    if (sum.area > 1) sum.near /= sum.area, sum.area = 1;
-    return sum;
 }
 
 // Interpolates back light between the four cells around the pixel; near focus, cells as blurred as the pixel count first.
 vec4 back_at(ivec2 pixel, float radius, out float is_known) {
-    const vec2 place = (vec2(pixel) + 0.5) * 0.5 - 0.5;
-    const ivec2 low = ivec2(floor(place)), last = 8 * at.tiles - 1;
-    const vec2 share = place - vec2(low);
-    vec4 sum = vec4(0);
-    float weights = 0;
-    for (int i = 0; i < 4; ++i) {
-        const ivec2 d = ivec2(i & 1, i >> 1), cell = clamp(low + d, ivec2(0), last);
-        const vec4 area = texelFetch(gathered, ivec3(cell, kGatheredArea), 0);
-        // Four cells have the taps of four sets: a wide disc shows the mean of them, also one behind a near surface.
-        const vec2 near_it = mix(mix(1 - share, share, vec2(d)), vec2(0.5), smoothstep(16.0, 40.0, abs(radius)));
-        const float own = gathered_radius(radius);
-        float alike = radius > 0 ? exp2(-4 * abs(area.y - own) / (1 + 0.5 * radius)) : 1.0;
+    const vec2 texel = 1 / vec2(8 * at.tiles), place = (vec2(pixel) + 0.5) * 0.5 - 0.5, low = floor(place);
+    // Four cells have the taps of four sets: a wide disc shows the mean of them, also one behind a near surface.
+    const vec2 share = mix(place - low, vec2(0.5), ramp(16.0, 40.0, abs(radius)));
+    const vec3 middle = vec3((low + 1) * texel, kGatheredArea);
+    const vec4 known = textureGather(gathered, middle, 2), radii = textureGather(gathered, middle, 1);
+    const float own = gathered_radius(radius);
+    const bool is_alike = radius <= 0 || min(min(own, min(radii.x, radii.y)), min(radii.z, radii.w)) >= 2.5;
+    is_known = 1;
+    if (is_alike && known == vec4(1)) return textureLod(gathered, vec3((low + 0.5 + share) * texel, kGatheredBack), 0);
+    vec4 w = vec4(1 - share.x, share.xx, 1 - share.x) * vec4(share.yy, 1 - share.yy) * known;
+    if (!is_alike) {
+        const vec4 alike = exp2(-4 / (1 + 0.5 * radius) * abs(radii - own));
         // If neither the pixel nor the cell is nearly sharp, both know the light between them.
-        alike = mix(alike, 1.0, smoothstep(1.0, 2.5, min(own, area.y)));
-        const float w = near_it.x * near_it.y * area.z * max(alike, 1e-4);
-        sum += w * texelFetch(gathered, ivec3(cell, kGatheredBack), 0);
-        weights += w;
+        const vec4 blurred = clamp((min(vec4(own), radii) - 1) * (1 / 1.5), vec4(0), vec4(1));
+        w *= max(mix(alike, vec4(1), blurred * blurred * (3 - 2 * blurred)), vec4(1e-4));
     }
+    const float weights = w.x + w.y + w.z + w.w;
     is_known = weights > 1e-6 ? 1.0 : 0.0;
-    return weights > 1e-6 ? sum / weights : vec4(0);
+    if (weights <= 1e-6) return vec4(0);
+    vec4 sum = vec4(0);
+    const ivec2 cell = ivec2(low), last = 8 * at.tiles - 1;
+    for (int i = 0; i < 4; ++i)  // as textureGather() has them
+        if (w[i] > 0) sum += w[i] * texelFetch(gathered, ivec3(clamp(cell + ivec2(i == 1 || i == 2, i < 2), ivec2(0), last), kGatheredBack), 0);
+    return sum / weights;
+}
+
+// Near light between the cells around a place: the area that it covers, and that of hardly blurred light.
+vec4 near_at(vec2 place, float reach_px, out vec2 area) {
+    const vec2 half_cell = 0.5 * ramp(4.0, 12.0, reach_px) / vec2(8 * at.tiles);
+    area = vec2(0);
+    vec4 near = vec4(0);
+    const int count = reach_px > 4 ? 4 : 1;
+    for (int i = 0; i < count; ++i) {
+        const vec2 there = place + half_cell * vec2((i & 1) * 2 - 1, (i & 2) - 1);
+        const vec4 areas = textureLod(gathered, vec3(there, kGatheredArea), 0);
+        if (areas.x == 0) continue;
+        area += areas.xw;
+        near += textureLod(gathered, vec3(there, kGatheredNear), 0);
+    }
+    area /= float(count);
+    return near / float(count);
 }
 
 // The view that a host asked for.
-vec4 viewed(vec4 made, float radius, vec4 reaches, vec4 behind, vec4 before, vec4 lamps) {
+vec4 viewed(vec4 made, float radius, vec4 reaches, vec4 behind, vec4 before) {
     const float share = min(abs(radius) / at.most_px, 1.0);
     if (at.view == 1u) return vec4(radius < 0 ? share : 0.0, abs(radius) < 0.5 ? 0.25 : 0.0, radius > 0 ? share : 0.0, 1);
     if (at.view == 2u) return vec4(behind.rgb, 1);
     if (at.view == 3u) return before;
-    if (at.view == 4u) return vec4(lamps.rgb, 1);
+    if (at.view == 4u) return vec4(0, 0, 0, 1);  // lamps are added
     if (at.view == 5u) return vec4(reaches.x / at.most_px, max(reaches.y, reaches.z) / kWholePx, 0, 1);
     return made;
 }
@@ -218,50 +255,52 @@ vec4 viewed(vec4 made, float radius, vec4 reaches, vec4 behind, vec4 before, vec
 void main() {
     // A group runs as a whole or not at all, because its invocations look for lamps together.
     const ivec2 place_of_group = ivec2(gl_GlobalInvocationID.xy), pixel = min(place_of_group, at.size - 1);
-    const vec2 place = (vec2(pixel) + 0.5) * 0.5 / vec2(8 * at.tiles);
-    const ivec2 tile = 8 * ivec2(gl_WorkGroupID.xy) / kTile;
-    const float radius = radius_at(pixel);
+    const ivec2 tile = ivec2(gl_WorkGroupID.xy) >> 1;
+    float radius = radius_at(pixel);
+    const float own_px = radius;
     const vec4 reaches = reach[tile.y * at.tiles.x + tile.x];
     const bool has_near = reaches.w < -2, is_fine = max(reaches.y, reaches.z) > (has_near ? 0.0 : 0.5);
-    if (is_fine) read_window();
-    barrier();
-    Fine own = Fine(finite_of(texelFetch(colours, pixel, 0)), vec4(0), 0, 0);
-    if (is_fine) own = fine(radius, uintBitsToFloat(widest_px[0]), uintBitsToFloat(widest_px[1]), has_near);
-    const float hidden = blurred_share(-radius), blurred = blurred_share(abs(radius));
-    vec4 near_lamps = vec4(0), back_lamps = vec4(0);
-    add_all_lamps(pixel, reaches.x, near_lamps, back_lamps);
+    const int own = (int(gl_LocalInvocationID.y) + kRim) * kAcross + int(gl_LocalInvocationID.x) + kRim;
+    Fine fine = Fine(vec4(0), vec4(0), 0, 0);
+    float back_px = 0;
+    if (is_fine) {
+        read_window();
+        barrier();
+        back_px = uintBitsToFloat(widest_px[0]);
+        const float near_px = uintBitsToFloat(widest_px[1]), nearest = uintBitsToFloat(widest_px[2]);
+        if (has_near && nearest >= kWholePx && uintBitsToFloat(farthest_px) < 0.8 * nearest) radius = reveal(own, radius);
+        add_near(own, near_px, fine);
+    }
+    vec2 area = vec2(0);
     vec4 near = vec4(0);
-    float area = 0, fine_area = 0, is_known = 1;
-    if (reaches.x > 0.5) {
-        const vec2 half_cell = 0.5 * smoothstep(4.0, 12.0, reaches.x) / vec2(8 * at.tiles);
-        for (int i = 0; i < 4; ++i) {
-            const vec2 there = place + half_cell * (2 * vec2(i & 1, i >> 1) - 1);
-            near += 0.25 * textureLod(gathered, vec3(there, kGatheredNear), 0);
-            const vec4 areas = textureLod(gathered, vec3(there, kGatheredArea), 0);
-            area += 0.25 * areas.x;
-            fine_area += 0.25 * areas.w;
+    if (reaches.x > 0.5) near = near_at((vec2(pixel) + 0.5) * 0.5 / vec2(8 * at.tiles), reaches.x, area);
+    vec4 base = vec4(0);
+    float is_known = 1;
+    const float blurred = blurred_share(abs(own_px));
+    // Near light that covers the pixel completely hides the rest.
+    if ((area.x < 1 && fine.area < 1) || at.view == 2u) {
+        if (is_fine) add_back(own, radius, back_px, fine);
+        else fine.back = finite_of(texelFetch(colours, pixel, 0));
+        // A completely near pixel has no sharp part; some of its background may be known.
+        base = fine.back;
+        if (blurred > 0) {
+            const vec4 back = back_at(pixel, own_px, is_known);
+            // Light drawn pixel by pixel leaves the rest of the pixel's lens to cells, whichever pixel it comes from.
+            base = mix(base, back, is_known * min(blurred, 1 - fine.back_area));
         }
     }
-    // A completely near pixel has no sharp part; some of its background may be known.
-    vec4 base = own.back;
-    if (blurred > 0) {
-        const vec4 back = back_at(pixel, radius, is_known);
-        // Light drawn pixel by pixel leaves the rest of the pixel's lens to cells, whichever pixel it comes from.
-        base = mix(base, back, is_known * min(blurred, 1 - own.back_area));
-    }
-    const bool fills = area > 0 && is_known == 0 && hidden > 0.99;
-    const float covers = fills ? 1.0 : min(area, 1.0);
+    const bool fills = area.x > 0 && is_known == 0 && own_px < 0 && blurred > 0.99;
+    const float covers = fills ? 1.0 : min(area.x, 1.0);
+    if (area.x > 0) near *= covers / area.x;
     // Near light that pixels and cells both draw in part is one surface: the parts lie side by side.
-    const float free = 1 - covers, open = min(free + min(fine_area, covers), own.area > 0 ? free / own.area : 1.0);
-    vec4 made = (area > 0 ? covers / area : 0.0) * near + open * own.near + (free - open * own.area) * base;
-    made += (1 - own.area) * back_lamps + near_lamps;
-    if (at.has_layer != 0u) {
+    const float free = 1 - covers, open = min(free + min(area.y, covers), fine.area > 0 ? free / fine.area : 1.0);
+    near += open * fine.near;
+    vec4 made = near + (free - open * fine.area) * base;
+    if (at.view != 0u) made = viewed(made, own_px, reaches, base, near);
+    if (at.view == 0u || at.view == 4u) add_all_lamps(pixel, reaches.x, 1 - fine.area, made);
+    if (at.view == 0u && at.has_layer != 0u) {
         const vec4 layer = finite_of(texelFetch(over, pixel, 0));
         made = layer + (1 - layer.a) * made;
-    }
-    if (at.view != 0u) {
-        const vec4 before = (area > 0 ? covers / area : 0.0) * near + open * own.near;
-        made = viewed(made, radius, reaches, base, before, back_lamps + near_lamps);
     }
     if (pixel == place_of_group) imageStore(result, pixel, made);
 }

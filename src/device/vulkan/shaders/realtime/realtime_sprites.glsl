@@ -40,8 +40,9 @@ vec4 cell_at(int first, int side, vec2 share) {
 // The share of its light that a lamp sends to an offset in pixels, interpolated between zones of the lens.
 vec4 kernel_at(int lamp, vec2 offset) {
     const int half_side = group_lamps[lamp].half_side, side = 2 * half_side + 1;
-    const vec2 place = vec2(offset.x, offset.y / at.aspect) * group_lamps[lamp].cells_per_px + float(half_side);
-    if (any(lessThan(place, vec2(0))) || any(greaterThanEqual(place, vec2(side - 1)))) return vec4(0);
+    const vec2 from_middle = vec2(offset.x, offset.y / at.aspect) * group_lamps[lamp].cells_per_px;
+    if (max(abs(from_middle.x), abs(from_middle.y)) >= float(half_side)) return vec4(0);
+    const vec2 place = from_middle + float(half_side);
     const ivec2 low = ivec2(place);
     const vec2 share = place - vec2(low);
     const int first = group_lamps[lamp].first + low.y * side + low.x;
@@ -63,15 +64,19 @@ vec4 kernel_at(int lamp, vec2 offset) {
 // none at `to`; an occluder with the remaining radius stops it there.
 float seen(vec2 from, vec2 to, float radius) {
     const int kSteps = 8;
-    const vec2 step_px = (to - from) / float(kSteps);
+    const vec2 step_cells = (to - from) * (0.5 / float(kSteps));
     const float per_radius = 1 / radius;
-    vec2 place = from;
+    vec2 place = 0.5 * from;
     float hidden = 0, way = 0;
     [[dont_unroll]] for (int i = 1; i <= kSteps; ++i) {
-        place += step_px, way += 1;
-        const float there = radius_at(clamp(ivec2(place), ivec2(0), at.size - 1)), nearer = 1 - there * per_radius;
+        place += step_cells, way += 1;
+        const ivec2 cell = ivec2(place);
+        const vec4 radii = texelFetch(cells, ivec3(cell, kRadii), 0);
+        if (min(min(radii.x, radii.y), min(radii.z, radii.w)) * per_radius > 0.95) continue;  // most cells hide nothing
+        const ivec2 pixel = ivec2(2 * place);
+        const float there = radii[(pixel.y & 1) << 1 | pixel.x & 1], nearer = 1 - there * per_radius;
         if (nearer < 0.05 || has_mark(there)) continue;
-        hidden += smoothstep(0.05, 0.2, nearer) * max(0.0, 1 - abs(float(kSteps) * nearer - way));
+        hidden += ramp(0.05, 0.2, nearer) * max(0.0, 1 - abs(float(kSteps) * nearer - way));
     }
     return 1 - min(hidden, 1.0);
 }
@@ -94,24 +99,26 @@ float let_through(vec2 from, vec2 to, float radius, float near_px) {
         const vec3 near = textureLod(cells, vec3(place, kNear), level).xyz;
         if (near.x <= 1e-3) continue;
         const float there = near.y * per_radius / max(near.z, 1e-7), covers = near.x * max(0.0, 1 - abs(there * per_step - steps));
-        hidden += covers * (is_near ? smoothstep(0.2, 0.5, there - begin) : 1.0);  // a lamp is not cut by what it hangs on
+        hidden += covers * (is_near ? ramp(0.2, 0.5, there - begin) : 1.0);  // a lamp is not cut by what it hangs on
     }
     return 1 - min(hidden, 1.0);
 }
 
-// Adds the first lamps of a group to a pixel.
-void add_lamps(uint count, vec2 pixel, float near_px, inout vec4 near, inout vec4 back) {
+// Adds the first lamps of a group to a pixel. open: the share of those behind focus.
+void add_lamps(uint count, vec2 pixel, float near_px, float open, inout vec4 made) {
     for (int i = 0; i < int(count); ++i) {
         if (group_lamps[i].half_side < 0) continue;
+        const float radius = group_lamps[i].radius;
+        if (radius > 0 && open == 0) continue;
         const vec2 from = group_lamps[i].from;
         const vec4 share = kernel_at(i, pixel - from);
         if (share.a == 0) continue;
-        const float radius = group_lamps[i].radius;
-        vec4 light = share * vec4(group_lamps[i].light, 0);
-        if (near_px > 0.5) light *= let_through(from, pixel, radius, near_px);
-        if (radius < 0) near += light;
-        else if (group_lamps[i].least_px >= 0.95 * radius) back += light;  // nothing is nearer
-        else back += light * seen(from, pixel, radius);
+        float shows = near_px > 0.5 ? let_through(from, pixel, radius, near_px) : 1.0;
+        if (radius > 0) {
+            shows *= open;
+            if (group_lamps[i].least_px < 0.95 * radius) shows *= seen(from, pixel, radius);  // else nothing is nearer
+        }
+        made.rgb += shows * share.rgb * group_lamps[i].light;
     }
 }
 
@@ -135,7 +142,7 @@ float least_between(ivec2 a, ivec2 b) {
 // Lamps that no pixel of the group sees cost the others nothing more.
 shared uint lamp_counts[64], all_lamps;  // of the tiles
 shared uvec2 lamps_found[64];  // cell: column, row << 16; bits of the smallest radius up to its tile
-void add_all_lamps(ivec2 pixel, float near_px, inout vec4 near, inout vec4 back) {
+void add_all_lamps(ivec2 pixel, float near_px, float open, inout vec4 made) {
     const uint own = gl_LocalInvocationIndex;
     const ivec2 own_tile = 8 * ivec2(gl_WorkGroupID.xy) / kTile;
     const ivec4 box = boxes[own_tile.y * at.tiles.x + own_tile.x];
@@ -181,7 +188,7 @@ void add_all_lamps(ivec2 pixel, float near_px, inout vec4 near, inout vec4 back)
                 group_lamps[own] = lamp_of_cell(ivec2(lamp.x & 0xffffu, lamp.x >> 16), uintBitsToFloat(lamp.y));
             }
             barrier();
-            add_lamps(found, vec2(pixel) + 0.5, near_px, near, back);
+            add_lamps(found, vec2(pixel) + 0.5, near_px, open, made);
             barrier();
         }
     }
