@@ -13,12 +13,12 @@ layout(binding = 3, rgba16f) writeonly uniform image2DArray gathered;
 
 const int kFarSide = kSets * kMostTaps * kShares;  // from the first weight of a zone
 const float kLeastArea = 1e-4;
-const float kNearestPx = 4;  // where what is hidden is looked for first
+const float kNearestPx = 4, kFarther = 1.5;  // where what is hidden is looked for: first, and then each time as far
 
-int first_tap, taps;  // of the cell's own set, from the first of all; their number
-int first_weight;     // of the cell's zone
+int first_tap, taps;  // of the cell's own set; their number
+int first_weight;     // of the cell's zone and set, in front of focus
 float tap_side;       // of the square that a tap reads on a disc of radius 1
-vec4 tap_of(int i) { return lens[1 + first_tap + i]; }
+vec2 texel;           // size of a cell
 // Weight of a tap for light blurred by a share of the disc's radius: the lens's shape, normalised so that a plane keeps
 // its light (engine/gather/realtime_plan.cpp). first_of: where a tap's weights begin; share: 0 or more.
 vec4 weight_of(int first_of, float share) { return lens[first_of + int(min(share, 1.0) * float(kShares - 1) + 0.5)]; }
@@ -28,10 +28,8 @@ struct Disc {
     float level;
 };
 Disc disc_of(vec2 middle, float radius_px) {
-    const vec2 texel = 1 / vec2(8 * at.tiles);
     return Disc(middle * texel, 0.5 * radius_px * vec2(1, at.aspect) * texel, max(0.0, log2(0.5 * radius_px * tap_side)));
 }
-vec4 read_cells(Disc disc, vec2 tap, int layer) { return textureLod(cells, vec3(disc.middle + tap * disc.scale, layer), disc.level); }
 
 // Mean radius of the light in front of focus in a cell, and behind it.
 float near_radius(vec3 near) { return near.y / max(near.z, 1e-7); }
@@ -64,20 +62,21 @@ Sum back_over(vec2 middle, float radius, float own_px, int which) {
     const float per_radius = 1 / radius, per_own = 1 / own_px, least = 0.5 * per_radius;
     Sum sum = Sum(vec4(0), 0, 0, 0, 0);
     vec2 less_sum = vec2(0);
-    int first_of = first_weight + kFarSide + first_tap * kShares;
-    for (int i = 0; i < taps; ++i, first_of += kShares) {
-        const vec2 tap = tap_of(i).xy;
-        const vec4 there = read_cells(disc, tap, kBack), light = read_cells(disc, tap, kBackLight);
+    int first_of = first_weight + kFarSide;
+    for (int i = first_tap; i < first_tap + taps; ++i, first_of += kShares) {
+        const vec2 place = disc.middle + lens[i].xy * disc.scale;
+        const vec4 there = textureLod(cells, vec3(place, kBack), disc.level);
         if (there.x == 0) continue;
+        const vec4 light = textureLod(cells, vec3(place, kBackLight), disc.level);
         const float reaches = back_radius(there), ratio = reaches * per_own;
         float counts = which == kAlike ? 1.0 : 0.0;  // most taps are about as blurred
         bool is_more = false;
         if (ratio < kAsBlurred) {
-            const float less = smoothstep(kAsBlurred, kLessBlurred, ratio);
+            const float less = ramp(kAsBlurred, kLessBlurred, ratio);
             if (there.x > 0.01) less_sum += less * there.x * vec2(1, reaches * reaches);
             counts = which == kLess ? less : which == kAlike ? 1 - less : 0.0;
         } else if (ratio > kUpTo) {
-            const float more = smoothstep(kUpTo, kMoreBlurred, ratio);
+            const float more = ramp(kUpTo, kMoreBlurred, ratio);
             counts = which == kMore ? more : which == kAlike ? 1 - more : 0.0;
             is_more = which == kAlike;
         }
@@ -104,14 +103,14 @@ vec4 back_of(vec2 middle, vec4 own_light, float own_px, vec2 slope, out float ar
     // On a surface that recedes, the disc covers the place that its light comes from.
     const Sum own = back_over(middle - kShift * radius * slope, (1 + length(slope)) * radius, radius, kAlike);
     area = own.area + own.more_area;
-    vec4 light = own.area > 0 ? own.light / own.area : own_light;
+    vec4 light = own.area > 0 ? own.light * (1 / own.area) : own_light;
     if (own.more_area > 0 && own.more_px > 0) {
         const Sum more = back_over(middle, own.more_px, radius, kMore);
-        if (more.area > 0) light = mix(light, more.light / more.area, own.more_area / area);
+        if (more.area > 0) light = mix(light, more.light * (1 / more.area), own.more_area / area);
     }
     if (own.less_px > 0) {
         const Sum less = back_over(middle, max(own.less_px, 1.0), radius, kLess);
-        light = less.area < 1 ? less.light + (1 - less.area) * light : less.light / less.area;
+        light = less.area < 1 ? less.light + (1 - less.area) * light : less.light * (1 / less.area);
     }
     return light;
 }
@@ -123,19 +122,21 @@ struct End {
     float away, likely, back_px, back_area;  // pixels; 0: none was found; sums of the light behind focus
 };
 End end_of(vec2 middle, vec2 way, float own_px, float most_px) {
-    const vec2 texel = 1 / vec2(8 * at.tiles);
+    const vec2 from = middle * texel, per_px = 0.5 * way * vec2(1, at.aspect) * texel;
+    const float most_near_px = 0.6 * own_px;
     End end = End(vec4(0), 0, 0, 0, 0);
-    float open = 1;
-    for (float away = min(kNearestPx, most_px); open > 0.05; away *= 1.5) {
-        const vec2 place = (middle + 0.5 * away * way * vec2(1, at.aspect)) * texel;
-        const float level = max(0.0, log2(away / 8));
-        const vec4 back = textureLod(cells, vec3(place, kBack), level), near = textureLod(cells, vec3(place, kNear), level);
-        const float behind = near.x > kLeastArea ? smoothstep(0.6, 0.4, near_radius(near.xyz) / own_px) : 0.0;
-        const float area = back.z + behind * near.w, shows = open * smoothstep(0.5, 1.0, area);
-        if (shows > 0) {
+    float open = 1, away = min(kNearestPx, most_px), level = log2(away / 8);
+    for (; open > 0.05; away *= kFarther, level += log2(kFarther)) {
+        const vec3 place = vec3(from + away * per_px, kBack);
+        const vec4 back = textureLod(cells, place, level), near = textureLod(cells, vec3(place.xy, kNear), level);
+        float behind = 0;
+        if (near.x > kLeastArea && near.y < most_near_px * near.z) behind = ramp(0.6, 0.4, near_radius(near.xyz) / own_px);
+        const float area = back.z + behind * near.w;
+        if (area > 0.5) {
+            const float shows = open * ramp(0.5, 1.0, area);
             vec4 light = vec4(0);
-            if (back.z > kLeastArea) light += textureLod(cells, vec3(place, kBackLight), level) * (back.z / back.x);
-            if (behind > 0) light += textureLod(cells, vec3(place, kNearLight), level) * (behind * near.w / near.x);
+            if (back.z > kLeastArea) light += textureLod(cells, vec3(place.xy, kBackLight), level) * (back.z / back.x);
+            if (behind > 0) light += textureLod(cells, vec3(place.xy, kNearLight), level) * (behind * near.w / near.x);
             end.light += shows / area * light;
             end.away += shows * away;
             end.likely += shows;
@@ -145,7 +146,8 @@ End end_of(vec2 middle, vec2 way, float own_px, float most_px) {
         if (away >= 2 * most_px) break;
     }
     if (end.likely == 0) return end;
-    end.light /= end.likely, end.away /= end.likely;
+    const float per_likely = 1 / end.likely;
+    end.light *= per_likely, end.away *= per_likely;
     end.likely /= 1 + 0.3 * at.exposure * brightness(end.light);
     return end;
 }
@@ -184,24 +186,24 @@ NearSum near_over(vec2 middle, float radius, float most_px, bool is_less) {
     const float per_radius = 1 / radius, least = 0.5 * per_radius, per_most = 1 / most_px;
     NearSum sum = NearSum(vec4(0), vec2(0), 0);
     vec2 less_sum = vec2(0);
-    int first_of = first_weight + first_tap * kShares;
-    for (int i = 0; i < taps; ++i, first_of += kShares) {
-        const vec4 tap_at = tap_of(i);
-        const vec2 tap = tap_at.xy;
-        const vec3 there = read_cells(disc, tap, kNear).xyz;
+    int first_of = first_weight;
+    for (int i = first_tap; i < first_tap + taps; ++i, first_of += kShares) {
+        const vec3 tap = lens[i].xyz;
+        const vec2 place = disc.middle + tap.xy * disc.scale;
+        const vec3 there = textureLod(cells, vec3(place, kNear), disc.level).xyz;
         if (there.x < kLeastArea) continue;
         const float reaches = near_radius(there), ratio = reaches * per_most;
         float counts = is_less ? 0.0 : 1.0;
         if (ratio < kNearLess) {
-            const float less = smoothstep(kNearLess, kNearLeast, ratio);
-            if (tap_at.z < ratio + 0.15) less_sum += less * there.x * vec2(1, reaches * reaches);
+            const float less = ramp(kNearLess, kNearLeast, ratio);
+            if (tap.z < ratio + 0.15) less_sum += less * there.x * vec2(1, reaches * reaches);
             counts = is_less ? less : 1 - less;
         }
         if (counts == 0) continue;
         vec4 w = weight_of(first_of, max(reaches * per_radius, least));
         if (counts < 1) w *= counts;
         if (w.a == 0) continue;
-        sum.light += w * read_cells(disc, tap, kNearLight);
+        sum.light += w * textureLod(cells, vec3(place, kNearLight), disc.level);
         const float area = w.a * there.x;
         sum.area.x += area;
         if (reaches < kWholePx) sum.area.y += area * min(kWholePx - reaches, 1.0);
@@ -230,11 +232,12 @@ void main() {
     const vec4 head = lens[0];
     taps = int(head.x), tap_side = head.y;
     const int set = (cell.x & 1) + 2 * (cell.y & 1);
-    first_tap = kMostTaps * set;
+    first_tap = 1 + kMostTaps * set;
+    texel = 1 / vec2(8 * at.tiles);
     // Each set takes the nearest zone of another fraction, so that the mean of the four interpolates between zones.
     const vec2 fraction = (vec2(set, (set & 1) * 2 + (set >> 1)) + 0.5) / float(kSets);
     const ivec2 zone = ivec2(zone_place(2 * middle, head.zw) + fraction);
-    first_weight = kFirstZone + kOfZone * (zone.y * int(head.z) + zone.x);
+    first_weight = kFirstZone + kOfZone * (zone.y * int(head.z) + zone.x) + kMostTaps * set * kShares;
     const vec4 own = texelFetch(cells, ivec3(cell, kBack), 0);
     const bool has = own.z > 0.02;
     float is_known = 1;
