@@ -12,11 +12,11 @@ vec2 surroundings_at(ivec2 pixel) {
 // Means of brightness over 3 x 3, 5 x 5 and 9 x 9 tiles around the group's own. All invocations of the group call it
 // together.
 const int kWindows = 3;
-shared float around_sums[64][kWindows];
+shared vec4 sums_around[64];  // `split` keeps the radii of its cells here afterwards
 shared uint least_around;  // as bits: the smallest squared mean of roots of 3 x 3 tiles
 void measure_around() {
     const int own = int(gl_LocalInvocationIndex);
-    float sums[kWindows] = float[](0, 0, 0);
+    vec4 sums = vec4(0);
     if (own == 0) least_around = 0x7f7fffffu;
     barrier();
     for (int i = own; i < 81; i += 64) {
@@ -24,23 +24,22 @@ void measure_around() {
         const vec2 found = surroundings[tile.y * at.tiles.x + tile.x];
         const float light = found.y;
         const int far = max(abs(d.x), abs(d.y));
-        if (far <= 1) sums[0] += light / 9, atomicMin(least_around, floatBitsToUint(found.x));
-        if (far <= 2) sums[1] += light / 25;
-        sums[2] += light / 81;
+        if (far <= 1) sums.x += light, atomicMin(least_around, floatBitsToUint(found.x));
+        if (far <= 2) sums.y += light;
+        sums.z += light;
     }
-    around_sums[own] = sums;
-    for (int half_way = 32; half_way > 0; half_way /= 2) {
+    sums_around[own] = sums * vec4(1.0 / 9, 1.0 / 25, 1.0 / 81, 0);
+    for (int half_way = 32; half_way > 0; half_way >>= 1) {
         barrier();
-        if (own < half_way)
-            for (int k = 0; k < kWindows; ++k) around_sums[own][k] += around_sums[own + half_way][k];
+        if (own < half_way) sums_around[own] += sums_around[own + half_way];
     }
     barrier();
 }
 // Mean brightness of the light under a disc of this radius; `tile_mean`: that of the nearest tiles.
 float mean_over(float radius_px, float tile_mean) {
     const float place = clamp(log2(max(radius_px, 1.0) / 8), 0.0, float(kWindows));
-    const float near = place < 1 ? tile_mean : around_sums[0][int(place) - 1];
-    return mix(near, around_sums[0][min(int(place), kWindows - 1)], fract(place));
+    const float near = place < 1 ? tile_mean : sums_around[0][int(place) - 1];
+    return mix(near, sums_around[0][min(int(place), kWindows - 1)], fract(place));
 }
 
 // The signed radius of the brightest pixel of a square. A pixel on the rim of a lamp shows lamp and surroundings, and its

@@ -18,7 +18,7 @@ void main() {
         sum += vec2(sqrt(light), light);
     }
     sums[own] = sum;
-    for (uint half_way = 32u; half_way > 0u; half_way /= 2u) {
+    for (uint half_way = 32u; half_way > 0u; half_way >>= 1) {
         barrier();
         if (own < half_way) sums[own] += sums[own + half_way];
     }

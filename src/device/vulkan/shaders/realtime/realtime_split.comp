@@ -19,7 +19,6 @@ layout(std430, binding = 8) writeonly buffer Lamps { uvec4 lamps[]; };  // by ti
 const int kAcross = kTile + 2;
 shared float window[kAcross * kAcross];  // signed radii by depth, of the tile's pixels and those around it
 shared vec4 part[kLayers][64];
-shared vec4 radii[64];
 shared uint lamp_cells[2], lamp_px;  // as bits: they are ordered as floats are
 
 // The signed radius of a cell's lamp, which is that of its brightest pixel. One or two bright pixels among dark ones of the
@@ -198,11 +197,11 @@ void main() {
     part[kBack][own] = vec4(back_weight, back_radius, back_area, back_counts);
     part[kNearLight][own] = near_light;
     part[kNear][own] = vec4(near_area, near_radius, near_counts, 1 - back_area);
-    radii[own] = range;
+    sums_around[own] = range;
     for (int k = 0; k < kLayers; ++k) imageStore(cells_1, ivec3(cell, k), part[k][own]);
     imageStore(cells_1, ivec3(cell, kRadii), own_radii);
     const ivec2 tile = ivec2(gl_WorkGroupID.xy);
-    for (int side = 4; side > 0; side /= 2) {
+    for (int side = 4; side > 0; side >>= 1) {
         barrier();
         const bool is_one = local.x < side && local.y < side;
         vec4 mean[kLayers];
@@ -211,7 +210,7 @@ void main() {
             const int a = 2 * local.y * 2 * side + 2 * local.x, b = a + 2 * side;
             for (int k = 0; k < kLayers; ++k)
                 mean[k] = 0.25 * (part[k][a] + part[k][a + 1] + part[k][b] + part[k][b + 1]);
-            both = max(max(radii[a], radii[a + 1]), max(radii[b], radii[b + 1]));
+            both = max(max(sums_around[a], sums_around[a + 1]), max(sums_around[b], sums_around[b + 1]));
         }
         barrier();
         if (is_one) {
@@ -222,8 +221,8 @@ void main() {
                 if (side == 2) imageStore(cells_4, ivec3(place, k), mean[k]);
                 if (side == 1) imageStore(cells_8, ivec3(place, k), mean[k]);
             }
-            radii[local.y * side + local.x] = both;
+            sums_around[local.y * side + local.x] = both;
         }
     }
-    if (own == 0u) tiles[tile.y * at.tiles.x + tile.x] = vec4(radii[0].xyz, -radii[0].w);
+    if (own == 0u) tiles[tile.y * at.tiles.x + tile.x] = vec4(sums_around[0].xyz, -sums_around[0].w);
 }
