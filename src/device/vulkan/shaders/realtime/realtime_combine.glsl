@@ -9,6 +9,8 @@ layout(binding = 4, RESULT) writeonly uniform image2D result;
 layout(std430, binding = 8) readonly buffer Reach { vec4 reach[]; };  // realtime_reach.comp
 #include "realtime.glsl"
 
+vec2 texel;  // size of a cell
+
 float radius_at(ivec2 pixel) {
     return texelFetch(cells, ivec3(pixel >> 1, kRadii), 0)[(pixel.y & 1) << 1 | pixel.x & 1];
 }
@@ -38,29 +40,29 @@ vec2 disc_of(float radius) {
 // Reads the window; all invocations of the group call it together.
 void read_window() {
     const int own = int(gl_LocalInvocationIndex);
-    const ivec2 first = 8 * ivec2(gl_WorkGroupID.xy) - kRim;
+    const ivec2 local = ivec2(gl_LocalInvocationID.xy), first = 8 * ivec2(gl_WorkGroupID.xy) - kRim;
     vec2 widest = vec2(0);
     float nearest = 0, farthest = at.most_px;
     if (own < 3) widest_px[own] = 0u;
     if (own == 3) farthest_px = floatBitsToUint(at.most_px);
-    ivec2 place = ivec2(own % kAcross, own / kAcross);
-    for (int i = own; i < kAcross * kAcross; i += 64) {
-        const ivec2 there = clamp(first + place, ivec2(0), at.size - 1);
+    for (int quarter = 0; quarter < 4; ++quarter) {
+        const ivec2 place = local + 8 * ivec2(quarter & 1, quarter >> 1), there = clamp(first + place, ivec2(0), at.size - 1);
+        if (max(place.x, place.y) >= kAcross) continue;
+        const int i = place.y * kAcross + place.x;
         const float radius = radius_at(there);
         const vec2 disc = disc_of(radius);
         window[i] = finite_of(texelFetch(colours, there, 0));
         window_discs[i] = disc;
-        widest = max(widest, vec2(pixelwise(radius), pixelwise(-radius)));
+        const float fine_px = pixelwise(abs(radius));
+        widest = max(widest, radius > 0 ? vec2(fine_px, 0) : vec2(0, fine_px));
         nearest = max(nearest, -radius), farthest = min(farthest, -disc.x);
-        place += ivec2(64 % kAcross, 64 / kAcross);
-        if (place.x >= kAcross) place += ivec2(-kAcross, 1);
     }
     barrier();
     for (int i = 0; i < 2; ++i)
         if (widest[i] > 0) atomicMax(widest_px[i], floatBitsToUint(widest[i]));
     if (nearest > 0) atomicMax(widest_px[2], floatBitsToUint(nearest));
     atomicMin(farthest_px, floatBitsToUint(max(farthest, 0.0)));
-    if (own < kSquare * kSquare) inside[own] = 0.5 - length(vec2(own % kSquare - kRim, float(own / kSquare - kRim) / at.aspect));
+    if (max(local.x, local.y) < kSquare) inside[local.y * kSquare + local.x] = 0.5 - length(vec2(local - kRim) / vec2(1, at.aspect));
 }
 // Offsets of pixels that a disc reaches.
 int last_offset(float radius_px) { return min(int(ceil(max(radius_px, 0.5) + 0.5)) - 1, kRim); }
@@ -75,8 +77,9 @@ struct End {
 End end_of(int own, int along, float step_px, float near_px) {
     for (int i = 1; i <= kRim; ++i) {
         const int there = own + i * along;
-        const float there_px = window_discs[there].x, farther = smoothstep(0.8, 0.6, there_px / near_px);
-        if (farther == 0) continue;
+        const float there_px = window_discs[there].x;
+        if (there_px <= 0.8 * near_px) continue;
+        const float farther = ramp(0.8, 0.6, there_px / near_px);
         const vec4 light = window[there];
         return End(light, float(i) * step_px, farther / (1 + at.exposure * brightness(light)), 1 - blurred_share(abs(there_px)), there_px);
     }
@@ -105,7 +108,7 @@ Behind behind_at(int own, float near_px) {
         sum.area += w.x + w.y;
     }
     if (sum.sharp > 0) sum.disc /= sum.sharp;
-    if (sum.area > 0) sum.light /= sum.area, sum.sharp /= sum.area;
+    if (sum.area > 0) sum.light *= 1 / sum.area, sum.sharp /= sum.area;
     return sum;
 }
 // The light of a pixel beside a near surface, without that surface's part of it. The pixel shows some of it although its
@@ -167,7 +170,7 @@ void add_near(int own, float near_px, inout Fine sum) {
         }
     }
     // The covered area of a disc, counted pixel by pixel, is right to 4 %.
-    if (sum.area > 1) sum.near /= sum.area, sum.area = 1;
+    if (sum.area > 1) sum.near *= 1 / sum.area, sum.area = 1;
 }
 // Adds the rest of it. Pixels whose discs are wider than its own are seen through its own.
 void add_back(int own, float radius, float back_px, inout Fine sum) {
@@ -187,7 +190,7 @@ void add_back(int own, float radius, float back_px, inout Fine sum) {
         }
     }
     if (back_area > 1e-3) {
-        sum.back = back / back_area;
+        sum.back = back * (1 / back_area);
         sum.back_area = min(back_area, 1.0);
     } else if (radius < 0 && radius > -kWholePx) {  // wider ones keep what cells found, or groups would show
         const Behind behind = behind_at(own, radius);
@@ -198,7 +201,7 @@ void add_back(int own, float radius, float back_px, inout Fine sum) {
 
 // Interpolates back light between the four cells around the pixel; near focus, cells as blurred as the pixel count first.
 vec4 back_at(ivec2 pixel, float radius, out float is_known) {
-    const vec2 texel = 1 / vec2(8 * at.tiles), place = (vec2(pixel) + 0.5) * 0.5 - 0.5, low = floor(place);
+    const vec2 place = (vec2(pixel) + 0.5) * 0.5 - 0.5, low = floor(place);
     // Four cells have the taps of four sets: a wide disc shows the mean of them, also one behind a near surface.
     const vec2 share = mix(place - low, vec2(0.5), ramp(16.0, 40.0, abs(radius)));
     const vec3 middle = vec3((low + 1) * texel, kGatheredArea);
@@ -221,24 +224,29 @@ vec4 back_at(ivec2 pixel, float radius, out float is_known) {
     const ivec2 cell = ivec2(low), last = 8 * at.tiles - 1;
     for (int i = 0; i < 4; ++i)  // as textureGather() has them
         if (w[i] > 0) sum += w[i] * texelFetch(gathered, ivec3(clamp(cell + ivec2(i == 1 || i == 2, i < 2), ivec2(0), last), kGatheredBack), 0);
-    return sum / weights;
+    return sum * (1 / weights);
 }
 
+void add_near_cells(vec2 place, float w, inout vec4 near, inout vec2 area) {
+    const vec4 areas = textureLod(gathered, vec3(place, kGatheredArea), 0);
+    if (areas.x == 0) return;
+    area += w * areas.xw;
+    near += w * textureLod(gathered, vec3(place, kGatheredNear), 0);
+}
 // Near light between the cells around a place: the area that it covers, and that of hardly blurred light.
 vec4 near_at(vec2 place, float reach_px, out vec2 area) {
-    const vec2 half_cell = 0.5 * ramp(4.0, 12.0, reach_px) / vec2(8 * at.tiles);
     area = vec2(0);
     vec4 near = vec4(0);
-    const int count = reach_px > 4 ? 4 : 1;
-    for (int i = 0; i < count; ++i) {
-        const vec2 there = place + half_cell * vec2((i & 1) * 2 - 1, (i & 2) - 1);
-        const vec4 areas = textureLod(gathered, vec3(there, kGatheredArea), 0);
-        if (areas.x == 0) continue;
-        area += areas.xw;
-        near += textureLod(gathered, vec3(there, kGatheredNear), 0);
+    if (reach_px <= 4) {
+        add_near_cells(place, 1, near, area);
+        return near;
     }
-    area /= float(count);
-    return near / float(count);
+    const vec2 half_cell = 0.5 * ramp(4.0, 12.0, reach_px) * texel, low = place - half_cell, high = place + half_cell;
+    add_near_cells(low, 0.25, near, area);
+    add_near_cells(vec2(high.x, low.y), 0.25, near, area);
+    add_near_cells(vec2(low.x, high.y), 0.25, near, area);
+    add_near_cells(high, 0.25, near, area);
+    return near;
 }
 
 // The view that a host asked for.
@@ -256,6 +264,7 @@ void main() {
     // A group runs as a whole or not at all, because its invocations look for lamps together.
     const ivec2 place_of_group = ivec2(gl_GlobalInvocationID.xy), pixel = min(place_of_group, at.size - 1);
     const ivec2 tile = ivec2(gl_WorkGroupID.xy) >> 1;
+    texel = 1 / vec2(8 * at.tiles);
     float radius = radius_at(pixel);
     const float own_px = radius;
     const vec4 reaches = reach[tile.y * at.tiles.x + tile.x];
@@ -273,7 +282,7 @@ void main() {
     }
     vec2 area = vec2(0);
     vec4 near = vec4(0);
-    if (reaches.x > 0.5) near = near_at((vec2(pixel) + 0.5) * 0.5 / vec2(8 * at.tiles), reaches.x, area);
+    if (reaches.x > 0.5) near = near_at((vec2(pixel) + 0.5) * (0.5 * texel), reaches.x, area);
     vec4 base = vec4(0);
     float is_known = 1;
     const float blurred = blurred_share(abs(own_px));
@@ -297,7 +306,7 @@ void main() {
     near += open * fine.near;
     vec4 made = near + (free - open * fine.area) * base;
     if (at.view != 0u) made = viewed(made, own_px, reaches, base, near);
-    if (at.view == 0u || at.view == 4u) add_all_lamps(pixel, reaches.x, 1 - fine.area, made);
+    if (at.view == 0u || at.view == 4u) add_all_lamps(pixel, tile, reaches.x, area.x > 0, 1 - fine.area, made);
     if (at.view == 0u && at.has_layer != 0u) {
         const vec4 layer = finite_of(texelFetch(over, pixel, 0));
         made = layer + (1 - layer.a) * made;

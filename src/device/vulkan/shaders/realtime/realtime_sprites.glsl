@@ -6,17 +6,18 @@ layout(std430, binding = 7) readonly buffer Boxes { ivec4 boxes[]; };  // realti
 const int kLampSteps = 14, kFirstStep = kFirstZone + 2 * kSets * kMostTaps * kShares;
 const float kStepAt = 0.5;  // pixels: the radius of the first kernel; the next are sqrt(2) times as wide each
 
-// Lamps as a group reads them, 64 at a time.
+// Lamps as a group reads them, so many at a time. More shared memory would leave fewer groups in flight.
+const int kLampsAtOnce = 32;
 struct Lamp {
-    vec2 from;           // pixels
-    float radius;        // signed
-    float least_px;      // no radius between the lamp's tile and the group's is smaller
-    float cells_per_px;  // of its kernel
-    vec3 light;          // times the size of a kernel's cell
+    vec2 from;       // pixels
+    float radius;    // signed
+    float least_px;  // no radius between the lamp's tile and the group's is smaller
+    vec4 to_cells;   // scale and offset from pixels to its kernel's cells, from the kernel's middle
+    vec3 light;      // times the size of a kernel's cell
     int first, half_side;  // of its kernel in the zone above it and left of it; half_side < 0: it reaches no pixel of the group
     vec2 zone_share;       // of the next column and row of zones
 };
-shared Lamp group_lamps[64];
+shared Lamp group_lamps[kLampsAtOnce];
 
 Lamp lamp_of_cell(ivec2 cell, float least_px) {
     const vec4 place = texelFetch(cells, ivec3(cell, kLampPlace), 0);
@@ -28,19 +29,21 @@ Lamp lamp_of_cell(ivec2 cell, float least_px) {
     const ivec2 zone = ivec2(min(zone_at, max(zones - 2, vec2(0))));
     const vec4 kept = lens[kFirstStep + kOfZone * (zone.y * int(zones.x) + zone.x) + step_of + (place.z < 0 ? 0 : kLampSteps)];
     const float cells_per_px = kept.z / radius;
+    const vec2 scale = vec2(cells_per_px, cells_per_px / at.aspect);
     const vec2 gap = abs(vec2(8 * ivec2(gl_WorkGroupID.xy) + 4) - from) - 3.5;
     const bool reaches = max(gap.x, gap.y / at.aspect) * cells_per_px <= kept.y;
     const vec3 light = place.w * cells_per_px * cells_per_px / at.aspect * texelFetch(cells, ivec3(cell, kLampLight), 0).rgb;
-    return Lamp(from, place.z, least_px, cells_per_px, light, int(kept.x), reaches ? int(kept.y) : -1, zone_at - vec2(zone));
+    return Lamp(from, place.z, least_px, vec4(scale, -from * scale), light, int(kept.x), reaches ? int(kept.y) : -1, zone_at - vec2(zone));
 }
 
 vec4 cell_at(int first, int side, vec2 share) {
     return mix(mix(lens[first], lens[first + 1], share.x), mix(lens[first + side], lens[first + side + 1], share.x), share.y);
 }
-// The share of its light that a lamp sends to an offset in pixels, interpolated between zones of the lens.
-vec4 kernel_at(int lamp, vec2 offset) {
+// The share of its light that a lamp sends to a pixel, interpolated between zones of the lens.
+vec4 kernel_at(int lamp, vec2 pixel) {
     const int half_side = group_lamps[lamp].half_side, side = 2 * half_side + 1;
-    const vec2 from_middle = vec2(offset.x, offset.y / at.aspect) * group_lamps[lamp].cells_per_px;
+    const vec4 to_cells = group_lamps[lamp].to_cells;
+    const vec2 from_middle = pixel * to_cells.xy + to_cells.zw;
     if (max(abs(from_middle.x), abs(from_middle.y)) >= float(half_side)) return vec4(0);
     const vec2 place = from_middle + float(half_side);
     const ivec2 low = ivec2(place);
@@ -90,30 +93,31 @@ float let_through(vec2 from, vec2 to, float radius, float near_px) {
     const bool is_near = radius < 0;
     const float per_radius = 1 / abs(radius), begin = is_near ? 1.0 : 0.0, step_of = (near_px * per_radius - begin) / float(kSteps);
     if (step_of <= 0) return 1;
-    const vec2 step_px = step_of * (is_near ? from - to : to - from), texel = 0.5 / vec2(8 * at.tiles), step_at = step_px * texel;
-    const float level = clamp(log2(0.5 * length(step_px)), 0.0, 3.0), per_step = 1 / step_of;
-    vec2 place = (is_near ? from : to) * texel;
+    const vec2 step_px = step_of * (is_near ? from - to : to - from), step_at = step_px * (0.5 * texel);
+    const float level = clamp(0.5 * log2(0.25 * dot(step_px, step_px)), 0.0, 3.0), per_step = 1 / step_of;
+    vec2 place = (is_near ? from : to) * (0.5 * texel);
     float hidden = 0, steps = begin * per_step;
     [[dont_unroll]] for (int i = 1; i <= kSteps; ++i) {
         place += step_at, steps += 1;
         const vec3 near = textureLod(cells, vec3(place, kNear), level).xyz;
         if (near.x <= 1e-3) continue;
-        const float there = near.y * per_radius / max(near.z, 1e-7), covers = near.x * max(0.0, 1 - abs(there * per_step - steps));
-        hidden += covers * (is_near ? ramp(0.2, 0.5, there - begin) : 1.0);  // a lamp is not cut by what it hangs on
+        const float there = near.y * per_radius / max(near.z, 1e-7), covers = 1 - abs(there * per_step - steps);
+        if (covers <= 0) continue;
+        hidden += near.x * covers * (is_near ? ramp(0.2, 0.5, there - begin) : 1.0);  // a lamp is not cut by what it hangs on
     }
     return 1 - min(hidden, 1.0);
 }
 
-// Adds the first lamps of a group to a pixel. open: the share of those behind focus.
-void add_lamps(uint count, vec2 pixel, float near_px, float open, inout vec4 made) {
+// Adds the first lamps of a group to a pixel. open: the share of those behind focus; has_near: near light reaches the pixel.
+void add_lamps(uint count, vec2 pixel, float near_px, bool has_near, float open, inout vec4 made) {
     for (int i = 0; i < int(count); ++i) {
         if (group_lamps[i].half_side < 0) continue;
         const float radius = group_lamps[i].radius;
         if (radius > 0 && open == 0) continue;
         const vec2 from = group_lamps[i].from;
-        const vec4 share = kernel_at(i, pixel - from);
+        const vec4 share = kernel_at(i, pixel);
         if (share.a == 0) continue;
-        float shows = near_px > 0.5 ? let_through(from, pixel, radius, near_px) : 1.0;
+        float shows = has_near || radius < 0 ? let_through(from, pixel, radius, near_px) : 1.0;
         if (radius > 0) {
             shows *= open;
             if (group_lamps[i].least_px < 0.95 * radius) shows *= seen(from, pixel, radius);  // else nothing is nearer
@@ -129,22 +133,23 @@ bool reaches_group(ivec2 tile, float radius_px) {
     return max(float(gap.x) - 0.5, (float(gap.y) - 0.5) / at.aspect) <= wide;
 }
 
-// The smallest signed radius of the tiles between two, and of these.
+// The smallest signed radius of two tiles, and of those that lines from one to the other cross.
 float least_between(ivec2 a, ivec2 b) {
-    const ivec2 low = min(a, b), high = max(a, b);
+    const ivec2 low = min(a, b), high = max(a, b), way = b - a;
+    const int wide = abs(way.x) + abs(way.y);
     float least = at.most_px;
     for (int y = low.y; y <= high.y; ++y)
-        for (int x = low.x; x <= high.x; ++x) least = min(least, reach[y * at.tiles.x + x].w);
+        for (int x = low.x; x <= high.x; ++x)
+            if (abs((x - a.x) * way.y - (y - a.y) * way.x) < max(wide, 1)) least = min(least, reach[y * at.tiles.x + x].w);
     return least;
 }
 
 // All invocations of the group call it together: each looks at a tile of the box, and then reads one of the lamps found.
 // Lamps that no pixel of the group sees cost the others nothing more.
 shared uint lamp_counts[64], all_lamps;  // of the tiles
-shared uvec2 lamps_found[64];  // cell: column, row << 16; bits of the smallest radius up to its tile
-void add_all_lamps(ivec2 pixel, float near_px, float open, inout vec4 made) {
+shared uvec2 lamps_found[kLampsAtOnce];  // cell: column, row << 16; bits of the smallest radius up to its tile
+void add_all_lamps(ivec2 pixel, ivec2 own_tile, float near_px, bool has_near, float open, inout vec4 made) {
     const uint own = gl_LocalInvocationIndex;
-    const ivec2 own_tile = 8 * ivec2(gl_WorkGroupID.xy) / kTile;
     const ivec4 box = boxes[own_tile.y * at.tiles.x + own_tile.x];
     const int across = max(box.z - box.x + 1, 0), count = across * max(box.w - box.y + 1, 0);
     for (int first = 0; first < count; first += 64) {
@@ -171,9 +176,9 @@ void add_all_lamps(ivec2 pixel, float near_px, float open, inout vec4 made) {
         uint before = 0u;
         if (lamps_of_tile > 0u)
             for (uint k = 0u; k < own; ++k) before += lamp_counts[k];
-        for (uint begin = 0u; begin < all; begin += 64u) {
+        for (uint begin = 0u; begin < all; begin += uint(kLampsAtOnce)) {
             uvec2 left = mask;
-            for (uint number = before; (left.x | left.y) != 0u && number < begin + 64u; ++number) {
+            for (uint number = before; (left.x | left.y) != 0u && number < begin + uint(kLampsAtOnce); ++number) {
                 const bool is_first = left.x != 0u;
                 const int cell = is_first ? findLSB(left.x) : 32 + findLSB(left.y);
                 if (is_first) left.x &= left.x - 1u;
@@ -182,13 +187,13 @@ void add_all_lamps(ivec2 pixel, float near_px, float open, inout vec4 made) {
                 if (number >= begin) lamps_found[number - begin] = uvec2(place.x | place.y << 16, least_px);
             }
             barrier();
-            const uint found = min(all - begin, 64u);
+            const uint found = min(all - begin, uint(kLampsAtOnce));
             if (own < found) {
                 const uvec2 lamp = lamps_found[own];
                 group_lamps[own] = lamp_of_cell(ivec2(lamp.x & 0xffffu, lamp.x >> 16), uintBitsToFloat(lamp.y));
             }
             barrier();
-            add_lamps(found, vec2(pixel) + 0.5, near_px, open, made);
+            add_lamps(found, vec2(pixel) + 0.5, near_px, has_near, open, made);
             barrier();
         }
     }
