@@ -13,6 +13,7 @@ layout(binding = 3, rgba16f) writeonly uniform image2DArray gathered;
 
 const int kFarSide = kSets * kMostTaps * kShares;  // from the first weight of a zone
 const float kLeastArea = 1e-4;
+const float kCovers = 0.9995;  // a share of near light that hides what is behind
 const float kNearestPx = 4, kFarther = 1.5;  // where what is hidden is looked for: first, and then each time as far
 
 int first_tap, taps;  // of the cell's own set; their number
@@ -240,23 +241,24 @@ void main() {
     first_weight = kFirstZone + kOfZone * (zone.y * int(head.z) + zone.x) + kMostTaps * set * kShares;
     const vec4 own = texelFetch(cells, ivec3(cell, kBack), 0);
     const bool has = own.z > 0.02;
-    float is_known = 1;
+    const vec3 own_near = texelFetch(cells, ivec3(cell, kNear), 0).xyz;
     vec2 area = vec2(0);
-    vec4 back;
-    if (has) {
+    vec4 near = vec4(0);
+    if (near_px > 0.5) {
+        const float own_px = near_radius(own_near);
+        const vec2 slope = own_near.x > 0.99 ? slope_of(cell, kNear, own_px) : vec2(0);
+        near = near_of(middle - kShift * own_px * slope, max(near_px, 1.0), area);
+    }
+    vec4 back = vec4(0);
+    float is_known = 1;
+    if (area.x >= kCovers) {
+        is_known = 0;
+    } else if (has) {
         const vec4 own_light = texelFetch(cells, ivec3(cell, kBackLight), 0) / own.x;
         float seen;
         back = back_radius(own) < 0.5 ? own_light : back_of(middle, own_light, back_radius(own), slope_of(cell, kBack, back_radius(own)), seen);
     } else {
-        const vec3 own_near = texelFetch(cells, ivec3(cell, kNear), 0).xyz;
         back = hidden_of(middle, near_radius(own_near), max(near_px, 1.0), is_known);
-    }
-    vec4 near = vec4(0);
-    if (near_px > 0.5) {
-        const vec3 own_near = texelFetch(cells, ivec3(cell, kNear), 0).xyz;
-        const float own_px = near_radius(own_near);
-        const vec2 slope = own_near.x > 0.99 ? slope_of(cell, kNear, own_px) : vec2(0);
-        near = near_of(middle - kShift * own_px * slope, max(near_px, 1.0), area);
     }
     imageStore(gathered, ivec3(cell, kGatheredBack), back);
     imageStore(gathered, ivec3(cell, kGatheredNear), near);
