@@ -37,32 +37,38 @@ vec2 disc_of(float radius) {
     const float reach = max(all - 1 / (24 * all), 0.5);
     return vec2(radius < 0 ? -reach : reach, all < kWholePx ? of_each(all) : 0.0);
 }
-// Reads the window; all invocations of the group call it together.
+// Radii of the pixels that one invocation has read; widest_px and farthest_px are made of them.
+struct Widest {
+    vec3 widest;
+    float farthest;
+};
+void read_pixel(ivec2 place, inout Widest found) {
+    if (max(place.x, place.y) >= kAcross) return;
+    const ivec2 there = clamp(8 * ivec2(gl_WorkGroupID.xy) - kRim + place, ivec2(0), at.size - 1);
+    const int i = place.y * kAcross + place.x;
+    const float radius = radius_at(there), fine_px = pixelwise(abs(radius));
+    const vec2 disc = disc_of(radius);
+    window[i] = finite_of(texelFetch(colours, there, 0));
+    window_discs[i] = disc;
+    found.widest = max(found.widest, vec3(radius > 0 ? vec2(fine_px, 0) : vec2(0, fine_px), -radius));
+    found.farthest = min(found.farthest, -disc.x);
+}
+// Reads the window; all invocations of the group call it together. Four calls and no loop, so that the reads overlap.
 void read_window() {
     const int own = int(gl_LocalInvocationIndex);
-    const ivec2 local = ivec2(gl_LocalInvocationID.xy), first = 8 * ivec2(gl_WorkGroupID.xy) - kRim;
-    vec2 widest = vec2(0);
-    float nearest = 0, farthest = at.most_px;
+    const ivec2 local = ivec2(gl_LocalInvocationID.xy);
     if (own < 3) widest_px[own] = 0u;
     if (own == 3) farthest_px = floatBitsToUint(at.most_px);
-    for (int quarter = 0; quarter < 4; ++quarter) {
-        const ivec2 place = local + 8 * ivec2(quarter & 1, quarter >> 1), there = clamp(first + place, ivec2(0), at.size - 1);
-        if (max(place.x, place.y) >= kAcross) continue;
-        const int i = place.y * kAcross + place.x;
-        const float radius = radius_at(there);
-        const vec2 disc = disc_of(radius);
-        window[i] = finite_of(texelFetch(colours, there, 0));
-        window_discs[i] = disc;
-        const float fine_px = pixelwise(abs(radius));
-        widest = max(widest, radius > 0 ? vec2(fine_px, 0) : vec2(0, fine_px));
-        nearest = max(nearest, -radius), farthest = min(farthest, -disc.x);
-    }
+    Widest found = Widest(vec3(0), at.most_px);
+    read_pixel(local, found);
+    read_pixel(local + ivec2(8, 0), found);
+    read_pixel(local + ivec2(0, 8), found);
+    read_pixel(local + 8, found);
     barrier();
-    for (int i = 0; i < 2; ++i)
-        if (widest[i] > 0) atomicMax(widest_px[i], floatBitsToUint(widest[i]));
-    if (nearest > 0) atomicMax(widest_px[2], floatBitsToUint(nearest));
-    atomicMin(farthest_px, floatBitsToUint(max(farthest, 0.0)));
-    if (max(local.x, local.y) < kSquare) inside[local.y * kSquare + local.x] = 0.5 - length(vec2(local - kRim) / vec2(1, at.aspect));
+    for (int i = 0; i < 3; ++i)
+        if (found.widest[i] > 0) atomicMax(widest_px[i], floatBitsToUint(found.widest[i]));
+    atomicMin(farthest_px, floatBitsToUint(max(found.farthest, 0.0)));
+    if (max(local.x, local.y) < kSquare) inside[local.y * kSquare + local.x] = 0.5 - length(vec2(local.x - kRim, float(local.y - kRim) / at.aspect));
 }
 // Offsets of pixels that a disc reaches.
 int last_offset(float radius_px) { return min(int(ceil(max(radius_px, 0.5) + 0.5)) - 1, kRim); }

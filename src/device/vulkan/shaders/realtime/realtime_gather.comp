@@ -20,9 +20,10 @@ int first_tap, taps;  // of the cell's own set; their number
 int first_weight;     // of the cell's zone and set, in front of focus
 float tap_side;       // of the square that a tap reads on a disc of radius 1
 vec2 texel;           // size of a cell
-// Weight of a tap for light blurred by a share of the disc's radius: the lens's shape, normalised so that a plane keeps
-// its light (engine/gather/realtime_plan.cpp). first_of: where a tap's weights begin; share: 0 or more.
-vec4 weight_of(int first_of, float share) { return lens[first_of + int(min(share, 1.0) * float(kShares - 1) + 0.5)]; }
+// Weight of a tap for light of a smaller radius: the lens's shape, normalised so that a plane keeps its light
+// (engine/gather/realtime_plan.cpp). first_of: where a tap's weights begin; share: of the disc's radius, in weights.
+const float kMostShare = float(kShares - 1);
+vec4 weight_of(int first_of, float share) { return lens[first_of + int(min(share, kMostShare) + 0.5)]; }
 // A disc of cells: reads at middle + tap * scale, from this level.
 struct Disc {
     vec2 middle, scale;
@@ -60,28 +61,32 @@ struct Sum {
 };
 Sum back_over(vec2 middle, float radius, float own_px, int which) {
     const Disc disc = disc_of(middle, radius);
-    const float per_radius = 1 / radius, per_own = 1 / own_px, least = 0.5 * per_radius;
+    const float per_radius = kMostShare / radius, least = 0.5 * per_radius, per_own = 1 / own_px;
     Sum sum = Sum(vec4(0), 0, 0, 0, 0);
     vec2 less_sum = vec2(0);
     int first_of = first_weight + kFarSide;
-    for (int i = first_tap; i < first_tap + taps; ++i, first_of += kShares) {
+    const int end = first_tap + taps;
+    for (int i = first_tap; i < end; ++i, first_of += kShares) {
         const vec2 place = disc.middle + lens[i].xy * disc.scale;
         const vec4 there = textureLod(cells, vec3(place, kBack), disc.level);
         if (there.x == 0) continue;
         const vec4 light = textureLod(cells, vec3(place, kBackLight), disc.level);
         const float reaches = back_radius(there), ratio = reaches * per_own;
-        float counts = which == kAlike ? 1.0 : 0.0;  // most taps are about as blurred
+        float counts = 1;
         bool is_more = false;
         if (ratio < kAsBlurred) {
             const float less = ramp(kAsBlurred, kLessBlurred, ratio);
             if (there.x > 0.01) less_sum += less * there.x * vec2(1, reaches * reaches);
             counts = which == kLess ? less : which == kAlike ? 1 - less : 0.0;
+            if (counts == 0) continue;
         } else if (ratio > kUpTo) {
             const float more = ramp(kUpTo, kMoreBlurred, ratio);
             counts = which == kMore ? more : which == kAlike ? 1 - more : 0.0;
             is_more = which == kAlike;
+            if (counts == 0 && !is_more) continue;
+        } else if (which != kAlike) {
+            continue;
         }
-        if (counts == 0 && !is_more) continue;
         vec4 w = weight_of(first_of, max(reaches * per_radius, least));
         if (is_more) {
             if (there.x > 0.01) sum.more_px = max(sum.more_px, reaches);
@@ -184,11 +189,12 @@ struct NearSum {
 };
 NearSum near_over(vec2 middle, float radius, float most_px, bool is_less) {
     const Disc disc = disc_of(middle, radius);
-    const float per_radius = 1 / radius, least = 0.5 * per_radius, per_most = 1 / most_px;
+    const float per_radius = kMostShare / radius, least = 0.5 * per_radius, per_most = 1 / most_px;
     NearSum sum = NearSum(vec4(0), vec2(0), 0);
     vec2 less_sum = vec2(0);
     int first_of = first_weight;
-    for (int i = first_tap; i < first_tap + taps; ++i, first_of += kShares) {
+    const int end = first_tap + taps;
+    for (int i = first_tap; i < end; ++i, first_of += kShares) {
         const vec3 tap = lens[i].xyz;
         const vec2 place = disc.middle + tap.xy * disc.scale;
         const vec3 there = textureLod(cells, vec3(place, kNear), disc.level).xyz;

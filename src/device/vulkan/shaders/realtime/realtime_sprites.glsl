@@ -12,9 +12,9 @@ struct Lamp {
     vec2 from;       // pixels
     float radius;    // signed
     float least_px;  // no radius between the lamp's tile and the group's is smaller
-    vec4 to_cells;   // scale and offset from pixels to its kernel's cells, from the kernel's middle
+    vec4 to_cells;   // scale and offset from pixels to the cells of its kernel
     vec3 light;      // times the size of a kernel's cell
-    int first, half_side;  // of its kernel in the zone above it and left of it; half_side < 0: it reaches no pixel of the group
+    int first, side;  // of its kernel in the zone above it and left of it; side 0: it reaches no pixel of the group
     vec2 zone_share;       // of the next column and row of zones
 };
 shared Lamp group_lamps[kLampsAtOnce];
@@ -33,7 +33,7 @@ Lamp lamp_of_cell(ivec2 cell, float least_px) {
     const vec2 gap = abs(vec2(8 * ivec2(gl_WorkGroupID.xy) + 4) - from) - 3.5;
     const bool reaches = max(gap.x, gap.y / at.aspect) * cells_per_px <= kept.y;
     const vec3 light = place.w * cells_per_px * cells_per_px / at.aspect * texelFetch(cells, ivec3(cell, kLampLight), 0).rgb;
-    return Lamp(from, place.z, least_px, vec4(scale, -from * scale), light, int(kept.x), reaches ? int(kept.y) : -1, zone_at - vec2(zone));
+    return Lamp(from, place.z, least_px, vec4(scale, kept.y - from * scale), light, int(kept.x), reaches ? 2 * int(kept.y) + 1 : 0, zone_at - vec2(zone));
 }
 
 vec4 cell_at(int first, int side, vec2 share) {
@@ -41,11 +41,10 @@ vec4 cell_at(int first, int side, vec2 share) {
 }
 // The share of its light that a lamp sends to a pixel, interpolated between zones of the lens.
 vec4 kernel_at(int lamp, vec2 pixel) {
-    const int half_side = group_lamps[lamp].half_side, side = 2 * half_side + 1;
+    const int side = group_lamps[lamp].side;
     const vec4 to_cells = group_lamps[lamp].to_cells;
-    const vec2 from_middle = pixel * to_cells.xy + to_cells.zw;
-    if (max(abs(from_middle.x), abs(from_middle.y)) >= float(half_side)) return vec4(0);
-    const vec2 place = from_middle + float(half_side);
+    const vec2 place = pixel * to_cells.xy + to_cells.zw;
+    if (min(place.x, place.y) < 0 || max(place.x, place.y) >= float(side - 1)) return vec4(0);
     const ivec2 low = ivec2(place);
     const vec2 share = place - vec2(low);
     const int first = group_lamps[lamp].first + low.y * side + low.x;
@@ -68,14 +67,14 @@ vec4 kernel_at(int lamp, vec2 pixel) {
 float seen(vec2 from, vec2 to, float radius) {
     const int kSteps = 8;
     const vec2 step_cells = (to - from) * (0.5 / float(kSteps));
-    const float per_radius = 1 / radius;
+    const float per_radius = 1 / radius, hides_px = 0.95 * radius;
     vec2 place = 0.5 * from;
     float hidden = 0, way = 0;
     [[dont_unroll]] for (int i = 1; i <= kSteps; ++i) {
         place += step_cells, way += 1;
         const ivec2 cell = ivec2(place);
         const vec4 radii = texelFetch(cells, ivec3(cell, kRadii), 0);
-        if (min(min(radii.x, radii.y), min(radii.z, radii.w)) * per_radius > 0.95) continue;  // most cells hide nothing
+        if (min(min(radii.x, radii.y), min(radii.z, radii.w)) > hides_px) continue;  // most cells hide nothing
         const ivec2 pixel = ivec2(2 * place);
         const float there = radii[(pixel.y & 1) << 1 | pixel.x & 1], nearer = 1 - there * per_radius;
         if (nearer < 0.05 || has_mark(there)) continue;
@@ -111,12 +110,12 @@ float let_through(vec2 from, vec2 to, float radius, float near_px) {
 // Adds the first lamps of a group to a pixel. open: the share of those behind focus; has_near: near light reaches the pixel.
 void add_lamps(uint count, vec2 pixel, float near_px, bool has_near, float open, inout vec4 made) {
     for (int i = 0; i < int(count); ++i) {
-        if (group_lamps[i].half_side < 0) continue;
+        if (group_lamps[i].side == 0) continue;
+        const vec4 share = kernel_at(i, pixel);
+        if (share.a == 0) continue;
         const float radius = group_lamps[i].radius;
         if (radius > 0 && open == 0) continue;
         const vec2 from = group_lamps[i].from;
-        const vec4 share = kernel_at(i, pixel);
-        if (share.a == 0) continue;
         float shows = has_near || radius < 0 ? let_through(from, pixel, radius, near_px) : 1.0;
         if (radius > 0) {
             shows *= open;
