@@ -1,6 +1,7 @@
 #include "engine/gather/realtime_plan.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -18,7 +19,7 @@ void add_taps(int taps, const RealtimeZones& zones, std::vector<Rgba>& fours) {
     constexpr double kFiner = 0.75;
     fours.push_back({float(taps), float(kFiner * std::sqrt(std::numbers::pi / taps)), float(zones.columns),
                      float(zones.rows)});
-    for (int set = 0; set < RealtimeLens::kSets; ++set)
+    for (int set = 0; set < RealtimeLens::kGrid; ++set)
         for (int i = 0; i < RealtimeLens::kMostTaps; ++i) {
             const double area = i == 0 || i >= taps ? 0 : i + 0.5;  // the first is for tiny discs
             const double r = std::sqrt(area / taps),
@@ -26,6 +27,31 @@ void add_taps(int taps, const RealtimeZones& zones, std::vector<Rgba>& fours) {
             fours.push_back({float(r * std::cos(angle)), float(r * std::sin(angle)), float(r),
                              float(std::exp2(-8 * r * r))});
         }
+}
+
+// Small discs take every cell that they reach, because taps on a spiral leave some out: half as many cells
+// again as taps, in whole rings around the middle.
+void add_grid(int taps, std::vector<Rgba>& fours) {
+    constexpr int kFarthest = 8, kMost = RealtimeLens::kMostTaps - 1;
+    constexpr double kBeyond = 0.6;         // cells: a disc reaches cells this far beyond its rim
+    std::vector<std::array<int, 3>> cells;  // squared distance, place
+    for (int y = -kFarthest; y <= kFarthest; ++y)
+        for (int x = -kFarthest; x <= kFarthest; ++x) cells.push_back({x * x + y * y, x, y});
+    std::sort(cells.begin(), cells.end());
+    auto count = std::size_t(std::min(3 * taps / 2, kMost));
+    while (cells[count][0] == cells[count - 1][0]) --count;
+    const auto distance = [&](std::size_t i) { return std::sqrt(double(cells[i][0])); };
+    const double radius = distance(count) - kBeyond;
+    std::size_t reached = 0;
+    for (std::size_t i = 0; i < RealtimeLens::kMostTaps; ++i) {
+        while (reached < count && distance(reached) < double(i + 1) / 8 + kBeyond) ++reached;
+        Rgba tap{0, 0, 0, i < std::size_t(kMost) ? float(reached) : float(radius)};
+        if (i < count) {
+            tap.r = float(cells[i][1] / radius), tap.g = float(cells[i][2] / radius);
+            tap.b = float(distance(i) / radius);
+        }
+        fours.push_back(tap);
+    }
 }
 
 // The mean of a kernel's weights over a square of its pixels, times `scale`.
@@ -93,13 +119,31 @@ Rgba weight_of(const std::vector<Rgba>& shape, const Rgba& tap, float share) {
     return Rgba{even, even, even, even} + shaped * own;
 }
 
+// Light of the shape in a cell of the grid. radius: that of the grid's disc, in cells.
+Rgba weight_of_cell(const std::vector<Rgba>& shape, const Rgba& tap, float share, float radius) {
+    const float blur = std::max(share, 0.25f / radius);  // half a pixel, the smallest radius
+    const float per_radius = kSide / (2 * kHalf), side = per_radius / (blur * radius);
+    const auto begin = [&](float at) { return 0.5f * kSide - at / blur * per_radius - 0.5f * side; };
+    const auto part = [side](float from, int i) {
+        return std::max(0.0f, std::min(from + side, float(i + 1)) - std::max(from, float(i)));
+    };
+    const float x0 = begin(tap.r), y0 = begin(tap.g);
+    Rgba sum;
+    for (int y = std::max(0, int(y0)); y < kSide && float(y) < y0 + side; ++y)
+        for (int x = std::max(0, int(x0)); x < kSide && float(x) < x0 + side; ++x)
+            sum += part(x0, x) * part(y0, y) * shape[std::size_t(y * kSide + x)];
+    return sum;
+}
+
 // A plane blurred by any share of the disc's radius keeps its light.
 void add_weights(const std::vector<Rgba>& shape, std::vector<Rgba>& fours) {
     constexpr float kLeast = 0.05f;
     constexpr int kShares = RealtimeLens::kShares;
-    const auto taps = std::size_t(fours[0].r);
+    const float radius = fours[RealtimeLens::kWeights - 1].a;  // of the grid
     for (std::size_t set = 0; set < RealtimeLens::kSets; ++set) {
         const std::size_t begins = fours.size(), first = 1 + set * RealtimeLens::kMostTaps;
+        const bool is_grid = set == RealtimeLens::kGrid;
+        const auto taps = std::size_t(is_grid ? fours[first + RealtimeLens::kMostTaps - 2].a : fours[0].r);
         fours.resize(begins + std::size_t(RealtimeLens::kMostTaps) * kShares);
         for (int k = 0; k < kShares; ++k) {
             const float share = std::max(float(k) / (kShares - 1), 1e-3f);
@@ -107,7 +151,11 @@ void add_weights(const std::vector<Rgba>& shape, std::vector<Rgba>& fours) {
                 return fours[begins + i * kShares + std::size_t(k)];
             };
             Rgba sum;
-            for (std::size_t i = 0; i < taps; ++i) sum += at(i) = weight_of(shape, fours[first + i], share);
+            for (std::size_t i = 0; i < taps; ++i) {
+                const Rgba& tap = fours[first + i];
+                at(i) = is_grid ? weight_of_cell(shape, tap, share, radius) : weight_of(shape, tap, share);
+                sum += at(i);
+            }
             for (std::size_t i = 0; i < taps; ++i) {
                 Rgba& w = at(i);
                 w = {w.r / std::max(sum.r, kLeast), w.g / std::max(sum.g, kLeast),
@@ -164,6 +212,7 @@ RealtimeLens realtime_lens(const kernel::LensModel& lens, const RealtimeZones& z
     std::vector<Rgba>& fours = made.fours;
     fours.reserve(RealtimeLens::kWeights + zones.count() * RealtimeLens::kOfZone);
     add_taps(taps, zones, fours);
+    add_grid(taps, fours);
     const double near_px = std::clamp(near_radius_px, kLeastPx, kMostPx),
                  far_px = std::clamp(far_radius_px, kLeastPx, kMostPx);
     for (std::uint32_t zone = 0; zone < zones.count(); ++zone)

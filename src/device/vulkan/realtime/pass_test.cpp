@@ -36,10 +36,30 @@ TEST(RealtimeLens, CountsOneOfAPlaneAtEveryRadius) {
         for (std::size_t set = 0; set < 2 * std::size_t(RealtimeLens::kSets); ++set)
             for (std::size_t share = 0; share < kShares; ++share) {
                 float sum = 0;
-                for (std::size_t i = 0; i < std::size_t(taps); ++i)
+                for (std::size_t i = 0; i < std::size_t(RealtimeLens::kMostTaps); ++i)
                     sum += lens.fours[RealtimeLens::kWeights + set * kOfSet + i * kShares + share].a;
                 EXPECT_NEAR(sum, 1, 1e-5) << taps << " taps, share " << share;
             }
+    }
+}
+
+// A disc of radius r has the second moment r² / 2, and the squares of its cells add 1/6 to it.
+TEST(RealtimeLens, SmallDiscsAreAsWideAsTheirRadius) {
+    using engine::RealtimeLens;
+    constexpr std::size_t kOfTap = RealtimeLens::kShares,
+                          kFirst = 1 + RealtimeLens::kGrid * RealtimeLens::kMostTaps;
+    const RealtimeLens lens = *ideal_lens();
+    const float most = lens.fours[RealtimeLens::kWeights - 1].a;
+    EXPECT_NEAR(most, 4.4, 0.01);  // 69 cells, the next are 5 cells away; 0.6 cells less
+    for (const std::size_t share : {30, 45, 63}) {
+        const float radius = most * float(share) / 63;
+        float moment = 0;
+        for (std::size_t i = 0; i < 69; ++i) {
+            const Rgba& tap = lens.fours[kFirst + i];
+            const std::size_t weight = (kFirst - 1 + i) * kOfTap + share;
+            moment += most * most * tap.b * tap.b * lens.fours[RealtimeLens::kWeights + weight].a;
+        }
+        EXPECT_NEAR(moment, radius * radius / 2 + 1.0f / 6, 0.05f * moment) << radius << " cells";
     }
 }
 

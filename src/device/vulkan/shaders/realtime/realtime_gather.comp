@@ -16,21 +16,35 @@ const float kLeastArea = 1e-4;
 const float kCovers = 0.9995;  // a share of near light that hides what is behind
 const float kNearestPx = 4, kFarther = 1.5;  // where what is hidden is looked for: first, and then each time as far
 
-int first_tap, taps;  // of the cell's own set; their number
-int first_weight;     // of the cell's zone and set, in front of focus
-float tap_side;       // of the square that a tap reads on a disc of radius 1
-vec2 texel;           // size of a cell
-// Weight of a tap for light of a smaller radius: the lens's shape, normalised so that a plane keeps its light
-// (engine/gather/realtime_plan.cpp). first_of: where a tap's weights begin; share: of the disc's radius, in weights.
+int first_tap, taps;              // of the cell's own spiral; their number
+int first_of_zone, first_weight;  // of the cell's zone; of its spiral there, in front of focus
+float tap_side;                   // of the square that a tap reads on a disc of radius 1
+vec2 texel;                       // size of a cell
+const int kFirstGrid = 1 + kGrid * kMostTaps, kLastGrid = kFirstGrid + kMostTaps - 1;
 const float kMostShare = float(kShares - 1);
-vec4 weight_of(int first_of, float share) { return lens[first_of + int(min(share, kMostShare) + 0.5)]; }
 // A disc of cells: reads at middle + tap * scale, from this level.
 struct Disc {
     vec2 middle, scale;
     float level;
+    int tap, end, weights;  // its first tap, the one after its last, the weights of the first in front of focus
+    float per_px, most;     // weights in a pixel of radius; those of the disc's own radius
 };
+// Small discs take whole cells, wider ones a spiral of taps (engine/gather/realtime_plan.h).
 Disc disc_of(vec2 middle, float radius_px) {
-    return Disc(middle * texel, 0.5 * radius_px * vec2(1, at.aspect) * texel, max(0.0, log2(0.5 * radius_px * tap_side)));
+    const float grid_px = 2 * lens[kLastGrid].w;
+    const vec2 scale = 0.5 * vec2(1, at.aspect) * texel;
+    if (radius_px <= grid_px) {
+        const int count = int(lens[kFirstGrid + int(4 * radius_px)].w), weights = first_of_zone + kGrid * kMostTaps * kShares;
+        const float per_px = kMostShare / grid_px;
+        return Disc(middle * texel, grid_px * scale, 0, kFirstGrid, kFirstGrid + count, weights, per_px, per_px * radius_px);
+    }
+    const float level = max(0.0, log2(0.5 * radius_px * tap_side));
+    return Disc(middle * texel, radius_px * scale, level, first_tap, first_tap + taps, first_weight, kMostShare / radius_px, kMostShare);
+}
+// Weight of a tap for light of this radius: the lens's shape, normalised so that a plane keeps its light. first_of: where
+// the tap's weights begin.
+vec4 weight_of(Disc disc, int first_of, float radius_px) {
+    return lens[first_of + int(clamp(radius_px * disc.per_px, 0.5 * disc.per_px, disc.most) + 0.5)];
 }
 
 // Mean radius of the light in front of focus in a cell, and behind it.
@@ -61,12 +75,11 @@ struct Sum {
 };
 Sum back_over(vec2 middle, float radius, float own_px, int which) {
     const Disc disc = disc_of(middle, radius);
-    const float per_radius = kMostShare / radius, least = 0.5 * per_radius, per_own = 1 / own_px;
+    const float per_own = 1 / own_px;
     Sum sum = Sum(vec4(0), 0, 0, 0, 0);
     vec2 less_sum = vec2(0);
-    int first_of = first_weight + kFarSide;
-    const int end = first_tap + taps;
-    for (int i = first_tap; i < end; ++i, first_of += kShares) {
+    int first_of = disc.weights + kFarSide;
+    for (int i = disc.tap; i < disc.end; ++i, first_of += kShares) {
         const vec2 place = disc.middle + lens[i].xy * disc.scale;
         const vec4 there = textureLod(cells, vec3(place, kBack), disc.level);
         if (there.x == 0) continue;
@@ -87,7 +100,7 @@ Sum back_over(vec2 middle, float radius, float own_px, int which) {
         } else if (which != kAlike) {
             continue;
         }
-        vec4 w = weight_of(first_of, max(reaches * per_radius, least));
+        vec4 w = weight_of(disc, first_of, reaches);
         if (is_more) {
             if (there.x > 0.01) sum.more_px = max(sum.more_px, reaches);
             sum.more_area += (1 - counts) * w.a * there.x;
@@ -189,12 +202,11 @@ struct NearSum {
 };
 NearSum near_over(vec2 middle, float radius, float most_px, bool is_less) {
     const Disc disc = disc_of(middle, radius);
-    const float per_radius = kMostShare / radius, least = 0.5 * per_radius, per_most = 1 / most_px;
+    const float per_most = 1 / most_px;
     NearSum sum = NearSum(vec4(0), vec2(0), 0);
     vec2 less_sum = vec2(0);
-    int first_of = first_weight;
-    const int end = first_tap + taps;
-    for (int i = first_tap; i < end; ++i, first_of += kShares) {
+    int first_of = disc.weights;
+    for (int i = disc.tap; i < disc.end; ++i, first_of += kShares) {
         const vec3 tap = lens[i].xyz;
         const vec2 place = disc.middle + tap.xy * disc.scale;
         const vec3 there = textureLod(cells, vec3(place, kNear), disc.level).xyz;
@@ -203,11 +215,11 @@ NearSum near_over(vec2 middle, float radius, float most_px, bool is_less) {
         float counts = is_less ? 0.0 : 1.0;
         if (ratio < kNearLess) {
             const float less = ramp(kNearLess, kNearLeast, ratio);
-            if (tap.z < ratio + 0.15) less_sum += less * there.x * vec2(1, reaches * reaches);
+            if (tap.z * kMostShare < (ratio + 0.15) * disc.most) less_sum += less * there.x * vec2(1, reaches * reaches);
             counts = is_less ? less : 1 - less;
         }
         if (counts == 0) continue;
-        vec4 w = weight_of(first_of, max(reaches * per_radius, least));
+        vec4 w = weight_of(disc, first_of, reaches);
         if (counts < 1) w *= counts;
         if (w.a == 0) continue;
         sum.light += w * textureLod(cells, vec3(place, kNearLight), disc.level);
@@ -242,9 +254,10 @@ void main() {
     first_tap = 1 + kMostTaps * set;
     texel = 1 / vec2(8 * at.tiles);
     // Each set takes the nearest zone of another fraction, so that the mean of the four interpolates between zones.
-    const vec2 fraction = (vec2(set, (set & 1) * 2 + (set >> 1)) + 0.5) / float(kSets);
+    const vec2 fraction = (vec2(set, (set & 1) * 2 + (set >> 1)) + 0.5) / float(kGrid);
     const ivec2 zone = ivec2(zone_place(2 * middle, head.zw) + fraction);
-    first_weight = kFirstZone + kOfZone * (zone.y * int(head.z) + zone.x) + kMostTaps * set * kShares;
+    first_of_zone = kFirstZone + kOfZone * (zone.y * int(head.z) + zone.x);
+    first_weight = first_of_zone + kMostTaps * set * kShares;
     const vec4 own = texelFetch(cells, ivec3(cell, kBack), 0);
     const bool has = own.z > 0.02;
     const vec3 own_near = texelFetch(cells, ivec3(cell, kNear), 0).xyz;
