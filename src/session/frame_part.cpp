@@ -1,7 +1,7 @@
 #include "session/frame_part.h"
 
 #include "engine/samples/behind/smooth.h"
-#include "engine/samples/lamps.h"
+#include "engine/samples/lamps/lamps.h"
 #include "engine/samples/outlines/hidden_outlines.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "base/parallel.h"
 #include "engine/samples/all_samples.h"
 #include "engine/samples/behind/out_of_sight.h"
-#include "engine/samples/deep_samples.h"
+#include "engine/samples/deep/deep_samples.h"
 #include "session/rendered/light_points.h"
 
 #include <algorithm>

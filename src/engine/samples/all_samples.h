@@ -6,7 +6,7 @@
 #include "petzval/image.h"
 #include "petzval/workers.h"
 
-#include "engine/samples/deep_samples.h"
+#include "engine/samples/deep/deep_samples.h"
 #include "engine/waist/engine.h"
 
 #include <algorithm>

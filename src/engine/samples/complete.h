@@ -2,8 +2,6 @@
 // hidden parts.
 #pragma once
 
-#include "petzval/workers.h"
-
 #include "engine/samples/dim.h"
 #include "engine/waist/engine.h"
 
@@ -44,12 +42,5 @@ private:
     std::unique_ptr<const Parts> parts_;
     int height_;
 };
-
-// Converts samples that dim each other (Samples::deep_dims_itself) to shares of the lens. A ray straight
-// through the pixel meets the same light as before. Translucent samples are dimmed by the translucent ones in
-// front of them. An opaque sample takes the rest of the lens anyway, and rays that pass its occluders see all
-// of it; only translucent samples composited in its own layer (engine/scatter/sources.h) dim it, and it hides
-// the rest of that layer. Call it after highlights were taken out: they find their occluders themselves.
-void share_lens_area(CocSamples& samples, Workers& workers);
 
 }  // namespace petzval::engine

@@ -3,7 +3,7 @@
 
 #include "base/kept.h"
 #include "engine/samples/flat_surfaces.h"
-#include "engine/samples/lamps.h"
+#include "engine/samples/lamps/lamps.h"
 
 #include <cstdint>
 #include <list>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/samples/hidden.h"
-#include "engine/samples/outlines/outline_end.h"
+#include "engine/samples/outlines/edge_points.h"
 
 #include <vector>
 
@@ -28,7 +28,8 @@ class EdgeEnds {
 public:
     // Borrows radii_px.
     EdgeEnds(const LitPicture& picture, View<const float> radii_px, const Mixtures& mixtures, float white,
-             Workers& workers);
+             Workers& workers)
+        : points_(picture, radii_px, mixtures, white, workers) {}
 
     // Every end on a surface blurred by at most to_px, ordered by rows.
     std::vector<EdgeEnd> find(const Mixtures& mixtures, float to_px, Workers& workers) const;
@@ -37,32 +38,10 @@ public:
     float hidden_px(const EdgeEnd& end) const;
 
 private:
-    // A pixel by its place along an edge that is followed row by row (upright) or column by column, and
-    // across it.
-    struct Place {
-        bool upright;
-        int along, across;
-        PixelAt pixel() const { return upright ? PixelAt{across, along} : PixelAt{along, across}; }
-        Place moved(int by_along, int by_across) const {
-            return {upright, along + by_along, across + by_across};
-        }
-    };
-    struct Point {
-        float across = 0, energy = 0;  // its place in the row, and the sum of squared changes of light
-        bool rises = false;            // true if light increases across
-    };
-
-    float change_at(const Place& place) const;
-    bool point_at(const Place& place, Point& point) const;
-    bool point_near(const Place& place, float across, float within_px, Point& point) const;
-    bool end_at(const Place& start, int side, EdgeEnd& end) const;
+    bool end_at(const EdgePlace& start, int side, EdgeEnd& end) const;
     bool goes_behind(const EdgeEnd& end) const;
-    bool hides(PixelAt p, float coc_px) const;
-    bool shows(PixelAt p, float coc_px) const;
 
-    View<const float> radii_;
-    Plane light_;  // of each clean pixel, without lamps; -1 at silhouettes
-    float dark_;
+    EdgePoints points_;
 };
 
 }  // namespace petzval::engine

@@ -33,7 +33,8 @@ HiddenTextures::HiddenTextures(const KnownSurfaces& known, const Mixtures& mixtu
             tiles_.push_back({x / kTile * kTile, y / kTile * kTile, 0, {}});
         });
     if (tiles_.empty()) return;
-    measure_means(workers);
+    means_ = SharpMeans(
+        known, [this](const Rect& block) { return in_sight(block); }, workers);
     measure_details(workers);
     parallel_for(int(tiles_.size()), workers, [&](int i) { find_repeats(tiles_[std::size_t(i)]); });
     details_ = {};
@@ -50,49 +51,14 @@ bool HiddenTextures::in_sight(const Rect& block) const {
     return false;
 }
 
-void HiddenTextures::measure_means(Workers& workers) {
-    const Rect all = known_.radii().rect();
-    Image<Sum> own((all.width() + kBlock - 1) / kBlock, (all.height() + kBlock - 1) / kBlock);
-    parallel_for(own.height(), workers, [&](int v) {
-        for (int u = 0; u < own.width(); ++u) {
-            const Rect block =
-                Rect{u * kBlock, v * kBlock, (u + 1) * kBlock, (v + 1) * kBlock}.intersected(all);
-            if (!in_sight(block)) continue;
-            for (int y = block.y0; y < block.y1; ++y)
-                for (int x = block.x0; x < block.x1; ++x)
-                    if (sharp(x, y)) own(u, v).add({known_.colour(x, y), 1}, 1);
-        }
-    });
-    means_ = Image<Sum>(own.width(), own.height());
-    parallel_for(own.height(), workers, [&](int v) {
-        for (int u = 0; u < own.width(); ++u)
-            for (int y = std::max(0, v - 1); y <= std::min(own.height() - 1, v + 1); ++y)
-                for (int x = std::max(0, u - 1); x <= std::min(own.width() - 1, u + 1); ++x)
-                    means_(u, v).add(own(x, y), (x == u ? 2.0f : 1.0f) * (y == v ? 2.0f : 1.0f));
-    });
-}
-
-// Mean light around the middle of a pixel that shows a sharp surface.
-Rgba HiddenTextures::mean(float x, float y) const {
-    const float u = std::clamp((x + 0.5f) / kBlock - 0.5f, 0.0f, float(means_.width() - 1));
-    const float v = std::clamp((y + 0.5f) / kBlock - 0.5f, 0.0f, float(means_.height() - 1));
-    const int u0 = int(u), v0 = int(v);
-    const int u1 = std::min(u0 + 1, means_.width() - 1), v1 = std::min(v0 + 1, means_.height() - 1);
-    const float right = u - float(u0), down = v - float(v0);
-    Sum sum;
-    sum.add(means_(u0, v0), (1 - right) * (1 - down)), sum.add(means_(u1, v0), right * (1 - down));
-    sum.add(means_(u0, v1), (1 - right) * down), sum.add(means_(u1, v1), right * down);
-    return sum.light * (1 / sum.count);
-}
-
 void HiddenTextures::measure_details(Workers& workers) {
     const Rect all = known_.radii().rect();
     details_ = Plane(all.width() / kScale, all.height() / kScale, kUnknown);
     parallel_for(details_.height(), workers, [&](int v) {
         const int y = v * kScale;
         for (int x = 0; x + 1 < all.width(); x += kScale)
-            if (means_(x / kBlock, y / kBlock).count > 0 && sharp(x, y) && sharp(x + 1, y) &&
-                sharp(x, y + 1) && sharp(x + 1, y + 1))
+            if (means_.known_at(x, y) && sharp(x, y) && sharp(x + 1, y) && sharp(x, y + 1) &&
+                sharp(x + 1, y + 1))
                 details_(x / kScale, v) = detail(x, y);
     });
 }

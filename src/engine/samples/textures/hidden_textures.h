@@ -8,6 +8,7 @@
 #include "engine/samples/behind/known_surfaces.h"
 #include "engine/samples/completion_model.h"
 #include "engine/samples/textures/repeats.h"
+#include "engine/samples/textures/sharp_means.h"
 
 #include <array>
 #include <vector>
@@ -50,25 +51,16 @@ public:
 
 private:
     static constexpr int kTile = 32;  // side of a tile in pixels; its silhouettes share a texture
-    static constexpr int kBlock = 8;  // side of a block in pixels; it has one mean
+    static constexpr int kBlock = SharpMeans::kBlock;
     static constexpr int kBlocks = kTile / kBlock;  // on each side of a tile
     static constexpr int kTileBlocks = kBlocks * kBlocks;
 
-    // The sum of the sharp pixels of a block, or of some blocks.
-    struct Sum {
-        Rgba light;
-        float count = 0;
-        void add(const Sum& other, float weight) {
-            light += weight * other.light, count += weight * other.count;
-        }
-    };
     struct Tile {
         int x, y;  // its first pixel
         float grain;
         std::array<std::vector<Texture::Offset>, kTileBlocks> repeats;  // of each block; best first
     };
 
-    void measure_means(Workers& workers);
     void measure_details(Workers& workers);
     Texture texture_around(const Tile& tile) const;
     void find_repeats(Tile& tile) const;
@@ -77,15 +69,13 @@ private:
     const Tile& tile_of(int block) const { return tiles_[std::size_t(block / kTileBlocks)]; }
     float detail(int x, int y) const;
     bool in_sight(const Rect& block) const;
-    bool sharp(int x, int y) const {
-        return std::abs(known_.radii()(x, y)) < completion_model.texture_sharp_px;
-    }
+    bool sharp(int x, int y) const { return shows_sharp(known_, x, y); }
     bool shows(int x, int y, float coc_px) const {
         return known_.radii().rect().contains(x, y) &&
                std::abs(known_.radii()(x, y) - coc_px) < completion_model.step_px && sharp(x, y);
     }
     Rgba detail_of_pixel(int x, int y) const { return known_.colour(x, y) - mean(x, y); }
-    Rgba mean(float x, float y) const;
+    Rgba mean(float x, float y) const { return means_.at(x, y); }
     Rgba mean(int x, int y) const { return mean(float(x), float(y)); }
     Moved moved_to(int x, int y, int block, float coc_px) const;
     void move_grain(int x, int y, Moved& moved) const;
@@ -94,7 +84,7 @@ private:
     int farthest_, around_;  // in pixels of details: largest offset; width compared around a tile
     Image<int> tile_at_;     // number in tiles_; -1: none
     std::vector<Tile> tiles_;
-    Image<Sum> means_;  // means of 3 x 3 blocks, for the blocks that tiles read
+    SharpMeans means_;  // of the blocks that tiles read
     static constexpr float kUnknown = -2;
     Plane details_;  // as of Details; only while tiles are measured
 };

@@ -1,5 +1,5 @@
 // A lamp before a dark wall that slips behind the edge of something wide.
-#include "engine/samples/lamps.h"
+#include "engine/samples/lamps/lamps.h"
 
 #include "base/parallel.h"
 

@@ -1,4 +1,4 @@
-#include "engine/samples/deep_samples.h"
+#include "engine/samples/deep/deep_samples.h"
 
 #include "base/parallel.h"
 #include "image/deep_pixel.h"

@@ -1,0 +1,43 @@
+// All surfaces behind a pixel, in the order in which they hide each other.
+#pragma once
+
+#include "engine/samples/behind/beside.h"
+#include "engine/samples/behind/near_silhouettes.h"
+#include "engine/samples/behind/witnesses.h"
+
+#include <optional>
+#include <vector>
+
+namespace petzval::engine {
+
+class SurfacesBehind {
+public:
+    // Borrows the picture, radii, connections and mixtures. nearest_px, farthest_px: radii of the frame.
+    SurfacesBehind(const LitPicture& picture, View<const float> coc_px, View<const unsigned char> connected,
+                   const Mixtures& mixtures, float nearest_px, float farthest_px, const FillRule& rule,
+                   float white, Workers& workers);
+
+    const KnownSurfaces& known() const { return known_; }
+    bool may_hide(int x, int y) const { return near_silhouettes_.may_hide(x, y, coc_(x, y)); }
+    std::optional<HiddenGuess> beside(int x, int y) const { return surface_beside(known_, coc_, x, y); }
+    // Appends the surfaces behind (x, y), nearest first, if a lens ray that passes the occluder reaches any
+    // of them.
+    void fill(int x, int y, std::vector<HiddenGuess>& hidden) const;
+
+private:
+    void stack(const HiddenPixel& here, Hits& hits, std::vector<HiddenGuess>& hidden) const;
+
+    KnownSurfaces known_;
+    HiddenOutlines outlines_;
+    HiddenTextures textures_;
+    View<const float> coc_;
+    View<const unsigned char> connected_;
+    const Mixtures& mixtures_;
+    NearSilhouettes near_silhouettes_;
+    SurfaceSearch search_;
+    Witnesses witnesses_;
+    // Every how many directions are searched, and are searched first.
+    std::size_t every_, every_first_;
+};
+
+}  // namespace petzval::engine

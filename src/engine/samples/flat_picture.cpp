@@ -1,0 +1,139 @@
+#include "engine/samples/flat_picture.h"
+
+#include "base/parallel.h"
+#include "engine/samples/behind/known_surfaces.h"
+#include "engine/samples/behind/plate.h"
+#include "engine/samples/hidden.h"
+#include "engine/samples/kept_surfaces.h"
+#include "engine/samples/lamps/lamps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+namespace petzval::engine {
+namespace {
+
+// A sample that takes up `share` of its pixel; what its colour does not cover of that is emptiness.
+CocSample sample(Rgba colour, float coc_px, float share) {
+    const float empty = share - colour.a;
+    return {colour, coc_px, coc_px, empty > 1e-3f ? empty : 0};
+}
+
+// The surfaces of a picture, separated and completed. In front of a plate, only the surfaces before it:
+// `back` is the completed plate.
+class FlatPicture final : public CompletedPicture::Parts {
+public:
+    FlatPicture(const EngineView& input, View<const unsigned char> connected, const Dim& dim,
+                const CocSamples* back = nullptr)
+        : input_(input), back_(back) {
+        const auto find = [&] { return found(input, connected, dim, back); };
+        const std::uint64_t rules =
+            1 + 16 * std::uint64_t(input.options.quality) + 256 * std::uint64_t(input.options.fill);
+        found_ = back ? std::make_shared<const FoundSurfaces>(find())
+                      : kept_or_found(input, input.samples.colour, dim, rules, find);
+        count();
+    }
+
+    void rows(int y0, int y1, CocSamples& all) const override {
+        const int width = input_.width();
+        const std::size_t before = first_of_row_[std::size_t(y0)];
+        restart(all, width, y1 - y0, first_of_row_[std::size_t(y1)] - before);
+        parallel_for(y1 - y0, *input_.services.workers, [&](int row) {
+            std::size_t at = first_of_row_[std::size_t(y0 + row)] - before;
+            const std::size_t pixel = std::size_t(row) * std::size_t(width);
+            visit_row(
+                y0 + row, [&](int x) { all.first[pixel + std::size_t(x)] = at; },
+                [&](const CocSample& s) { all.samples[at++] = s; });
+        });
+        all.first.back() = all.samples.size();
+    }
+
+private:
+    static FoundSurfaces found(const EngineView& input, View<const unsigned char> connected, const Dim& dim,
+                               const CocSamples* back) {
+        const LitPicture picture{input.samples.colour, dim};
+        const View<const float> coc_px = input.samples.coc_px;
+        Workers& workers = *input.services.workers;
+        // A draft searches half as much.
+        const bool draft = input.options.quality == Quality::Draft;
+        const UnmixRule unmix = draft ? UnmixRule::draft() : UnmixRule{};
+        FillRule fill = draft ? FillRule::draft() : FillRule{};
+        if (input.options.quality == Quality::Final) fill.first_directions = fill.directions;
+        FoundSurfaces s;
+        s.flat.mixtures = unmix_silhouettes(picture, coc_px, connected, workers, unmix);
+        if (input.options.fill != Fill::Off)
+            s.flat.hidden =
+                fill_hidden(picture, coc_px, connected, s.flat.mixtures, input.samples.nearest_coc_px,
+                            input.samples.farthest_coc_px, fill, dim.white, workers);
+        unmix_nearer(s.flat.mixtures, picture, s.flat.hidden, workers);
+        if (back) unmix_before_plate(s.flat.mixtures, picture, coc_px, input.samples.plate, workers);
+        if (dim && !back && input.options.fill == Fill::Full)
+            s.lamps = lamps_behind(picture, coc_px, s.flat.mixtures, workers);
+        return s;
+    }
+    // Counts the samples before each row, so that rows can be written in parallel.
+    void count() {
+        const auto height = std::size_t(input_.height());
+        first_of_row_.assign(height + 1, 0);
+        std::vector<float> largest(height, 0);
+        parallel_for(int(height), *input_.services.workers, [&](int y) {
+            std::size_t n = 0;
+            float row = 0;
+            visit_row(
+                y, [](int) {}, [&](const CocSample& s) { ++n, row = std::max(row, std::abs(s.coc_px)); });
+            first_of_row_[std::size_t(y) + 1] = n, largest[std::size_t(y)] = row;
+        });
+        std::partial_sum(first_of_row_.begin(), first_of_row_.end(), first_of_row_.begin());
+        sample_count = first_of_row_.back();
+        largest_coc_px = *std::max_element(largest.begin(), largest.end());
+    }
+    // begin(x) for every pixel, then emit(sample) for each of its samples, nearest first.
+    template <typename Begin, typename Emit>
+    void visit_row(int y, const Begin& begin, const Emit& emit) const {
+        const auto lamps = found_->lamps.row(y);
+        auto lamp = lamps.begin();
+        for (int x = 0; x < input_.width(); ++x) {
+            begin(x);
+            const auto emit_before_plate = [&](const CocSample& s) {
+                if (!back_ || is_before_plate(s.coc_px, input_.samples.plate.coc_px(x, y))) emit(s);
+            };
+            visit_surfaces(x, y, emit_before_plate);
+            if (lamp != lamps.end() && lamp->x == x)
+                emit_before_plate({lamp->light, lamp->coc_px, lamp->coc_px}), ++lamp;
+            if (back_)
+                for (const CocSample& s : CocSamplesView(*back_).at(x, y)) emit(s);
+        }
+    }
+    template <typename Emit>
+    void visit_surfaces(int x, int y, const Emit& emit) const {
+        const View<const Rgba> colour = input_.samples.colour;
+        // The plate shows through the uncovered part of the picture.
+        found_->flat.visit(colour, input_.samples.coc_px, x, y, back_ ? colour(x, y).a : 1,
+                           [&](Rgba c, float coc_px, float share) { emit(sample(c, coc_px, share)); });
+    }
+
+    const EngineView& input_;
+    const CocSamples* back_;
+    std::shared_ptr<const FoundSurfaces> found_;
+    // Number of the first sample of each row, then the number of all.
+    std::vector<std::size_t> first_of_row_;
+};
+
+}  // namespace
+
+std::unique_ptr<CompletedPicture::Parts> flat_picture(const EngineView& input,
+                                                      View<const unsigned char> connected, const Dim& dim,
+                                                      const CocSamples* back) {
+    return std::make_unique<FlatPicture>(input, connected, dim, back);
+}
+
+void restart(CocSamples& samples, int width, int height, std::size_t count) {
+    samples.width = width;
+    samples.first.clear(), samples.samples.clear();  // the old contents are not copied
+    samples.first.resize(std::size_t(width) * std::size_t(height) + 1);
+    samples.samples.resize(count);
+}
+
+}  // namespace petzval::engine

@@ -1,0 +1,27 @@
+// One outline through two ends.
+#pragma once
+
+#include "engine/samples/outlines/outline_end.h"
+
+#include <optional>
+
+namespace petzval::engine {
+
+struct Joint {
+    int other = -1;  // number of the other end; -1: none
+    Arc arc{};
+    float length_px = 0;
+    bool sure = false;  // true if both ends know their direction
+
+    bool better_than(const Joint& o) const {
+        return o.other < 0 || (sure != o.sure ? sure : length_px < o.length_px);
+    }
+};
+
+// The arc through the visible points before both ends; nothing if they do not belong to one outline, or if it
+// is not hidden between them.
+std::optional<Joint> joint_of(View<const float> coc_px, const OutlineEnd& a, const OutlineEnd& b);
+// The direction in which an end continues, of length 1.
+PlanePoint direction_of(const OutlineEnd& end);
+
+}  // namespace petzval::engine
