@@ -124,4 +124,24 @@ Rgba KnownSurfaces::shown(Place from, Direction outwards, float distance_px, flo
     return total > 0 ? sum * (1 / total) : otherwise;
 }
 
+Slope KnownSurfaces::slope(int x, int y) const {
+    constexpr float kBend = 0.1f;  // px; of a plane, by the rounding of its depth
+    const float here = radii_(x, y);
+    const auto along = [&](int dx, int dy) {
+        float sum = 0, sides = 0;
+        for (const int side : {-1, 1}) {
+            const int u = x + 2 * side * dx, v = y + 2 * side * dy;
+            if (!radii_.rect().contains(u, v)) continue;
+            const float middle = radii_(x + side * dx, y + side * dy);
+            const float first = middle - here, second = radii_(u, v) - middle;
+            if (std::abs(first) > completion_model.step_px) continue;
+            if (std::abs(first - second) > kBend + completion_model.slope_tolerance * std::abs(first))
+                continue;
+            sum += 0.5f * float(side) * (first + second), ++sides;
+        }
+        return sides > 0 ? sum / sides : 0;
+    };
+    return {along(1, 0), along(0, 1)};
+}
+
 }  // namespace petzval::engine

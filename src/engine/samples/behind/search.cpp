@@ -73,10 +73,10 @@ std::array<Found, kHits> SurfaceSearch::look(const Start& from, std::size_t k) c
         // cache.)
         const float c = block.farthest > behind ? start[step->offset] : behind;
         if (c > behind && c > own + step->t * own_per_px + completion_model.step_px) {
-            hits[n++] = {true, int(u), int(v), c, step->t};
+            hits[n++] = {true, int(u), int(v), c, step->t, known_.slope(int(u), int(v))};
             // (A surface in front of focus hides another one, past whose edges the lens looks in turn.)
             longest = std::min(longest, step->t + std::max(0.0f, -c));
-            behind = c + 2 * completion_model.step_px;
+            behind = c + completion_model.step_px;
             if (n == kHits || behind >= farthest_) break;
         }
         // No other surface comes before the next silhouette.

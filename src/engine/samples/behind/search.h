@@ -19,6 +19,8 @@ struct Found {
     bool found = false;
     int x = 0, y = 0;
     float coc_px = 0, distance_px = 0;
+    Slope slope{};            // of its surface
+    bool on_surface = false;  // true if it belongs to the surface in question (behind/one_surface.h)
     KnownSurfaces::Place place() const { return {x, y, coc_px}; }
 };
 using Hits = std::array<std::array<Found, kHits>, kDirections>;

@@ -1,5 +1,6 @@
 #include "engine/samples/behind/surfaces_behind.h"
 
+#include "engine/samples/behind/one_surface.h"
 #include "engine/samples/completion_model.h"
 
 #include <algorithm>
@@ -83,15 +84,9 @@ void SurfacesBehind::stack(const HiddenPixel& here, Hits& hits, std::vector<Hidd
     float all_behind = 0, unhidden_behind = 0;
     std::array<HiddenGuess, kSurfaces + 1> surfaces;
     std::size_t n = 0;
-    for (bool first = true;; first = false) {
-        // The farthest surface that is left, and all hits that belong to it.
-        float farthest = -1e30f;
-        for (const auto& direction : hits)
-            for (const Found& f : direction)
-                if (f.found) farthest = std::max(farthest, f.coc_px);
-        if (farthest < -1e29f) break;
+    for (bool first = true; mark_farthest_surface(hits); first = false) {
         Met met;
-        HiddenGuess next = witnesses_.surface(here, hits, farthest, met);
+        HiddenGuess next = witnesses_.surface(here, hits, met);
         const float inside = met.within / met.all;
         const float behind = all_behind + inside * (unhidden_behind - all_behind);
         next.seen.share = first ? 1 : sharpened(met.within / (met.within + behind + 1e-9f));

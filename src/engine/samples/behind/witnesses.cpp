@@ -7,23 +7,6 @@
 #include <cmath>
 
 namespace petzval::engine {
-namespace {
-
-// Radius of the nearest hit on the surface whose farthest hit is at farthest_px. A sloping floor is hit
-// at many radii, in small steps: it is one surface.
-float nearest_of_surface(const Hits& hits, float farthest_px) {
-    float nearest = farthest_px;
-    for (float before = farthest_px, step = 1; nearest < before || step == 1; step = 0.5f) {
-        before = nearest;
-        for (const auto& direction : hits)
-            for (const Found& f : direction)
-                if (f.found && before - f.coc_px < step * surface_step_px(f.coc_px, before))
-                    nearest = std::min(nearest, f.coc_px);
-    }
-    return nearest;
-}
-
-}  // namespace
 
 // Weighted votes on the colour of a hidden surface.
 class Witnesses::Votes {
@@ -45,13 +28,12 @@ private:
     float plain_ = 0, coc_ = 0, total_ = 0;
 };
 
-HiddenGuess Witnesses::surface(const HiddenPixel& here, Hits& hits, float coc_px, Met& met) const {
+HiddenGuess Witnesses::surface(const HiddenPixel& here, Hits& hits, Met& met) const {
     Votes votes;
     HiddenTextures::Point hidden(textures_, here.x, here.y);
-    const float nearest_px = nearest_of_surface(hits, coc_px);
     const auto take = [&](std::size_t k) -> const Found* {
         for (const Found& f : hits[k])
-            if (f.found && f.coc_px >= nearest_px) return &f;
+            if (f.on_surface) return &f;
         return nullptr;
     };
     const auto passes = [&](const Found* f) { return f ? here.edges.passes({f->x, f->y}, f->coc_px) : 0; };
@@ -75,7 +57,7 @@ HiddenGuess Witnesses::surface(const HiddenPixel& here, Hits& hits, float coc_px
         if (b && from_b > both) add_alone(here, hidden, *b, k + kPairs, nearest, from_b - both, votes);
     }
     for (auto& direction : hits)
-        for (Found& f : direction) f.found = f.found && f.coc_px < nearest_px;
+        for (Found& f : direction) f.found = f.found && !f.on_surface;
     HiddenGuess guess = votes.mean();
     guess.smooth_px = completion_model.smooth_share * nearest;
     return guess;

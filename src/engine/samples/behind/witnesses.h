@@ -27,9 +27,9 @@ public:
     Witnesses(const KnownSurfaces& known, const HiddenTextures& textures, const SurfaceSearch& search)
         : known_(known), textures_(textures), search_(search) {}
 
-    // The estimate of the surface behind `here` whose farthest hit is at `coc_px`: the weighted mean of
-    // the colours and radii of its hits. They are used up.
-    HiddenGuess surface(const HiddenPixel& here, Hits& hits, float coc_px, Met& met) const;
+    // The estimate of the surface behind `here` to which the marked hits belong: the weighted mean of
+    // their colours and radii. They are used up.
+    HiddenGuess surface(const HiddenPixel& here, Hits& hits, Met& met) const;
 
 private:
     class Votes;
