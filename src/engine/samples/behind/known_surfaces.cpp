@@ -137,7 +137,8 @@ Slope KnownSurfaces::slope(int x, int y) const {
             if (std::abs(first) > completion_model.step_px) continue;
             if (std::abs(first - second) > kBend + completion_model.slope_tolerance * std::abs(first))
                 continue;
-            sum += 0.5f * float(side) * (first + second), ++sides;
+            sum += 0.5f * float(side) * (first + second);
+            ++sides;
         }
         return sides > 0 ? sum / sides : 0;
     };
