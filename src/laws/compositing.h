@@ -16,6 +16,9 @@ PETZVAL_LAW int kEmptyLayer = 0x7fffffff;  // emptiness behind everything
 // A pixel with less of its lens free is full: discrete sources of an opaque surface leave so much.
 PETZVAL_LAW float kSpent = 0.002f;
 
+// The areas of six sectors add up to 1 within this: alpha as close to 1 is 1, so opaque stays opaque.
+PETZVAL_LAW float kOpaqueRounding = 1e-6f;
+
 // A sample this close in radius to light that passes it is at the light's own depth and does not dim it.
 PETZVAL_LAW float kSameDepthPx = 0.02f;
 

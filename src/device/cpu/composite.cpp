@@ -170,9 +170,7 @@ private:
             for (int x = 0; x < tile_.width(); ++x) {
                 const float taken = w_.taken[std::size_t(x)];
                 row[x] = taken > 0 ? w_.given[std::size_t(x)] * (1 / taken) : Rgba{};
-                // (Opaque stays opaque: the areas of six sectors add up to 1 within rounding.)
-                constexpr float kRounding = 1e-6f;
-                if (std::abs(row[x].a - 1) < kRounding) row[x].a = 1;
+                if (std::abs(row[x].a - 1) < laws::kOpaqueRounding) row[x].a = 1;
             }
         }
     }

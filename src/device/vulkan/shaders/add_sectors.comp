@@ -2,6 +2,7 @@
 // free; it goes to those that arrived.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "laws/compositing.h"
 #include "laws/tiles.h"
 layout(local_size_x = 256) in;
 
@@ -25,5 +26,7 @@ void main() {
         light += light_of[place];
         taken += taken_of[place];
     }
-    result[gl_GlobalInvocationID.x] = taken > 0 ? light * (1 / taken) : vec4(0);
+    vec4 made = taken > 0 ? light * (1 / taken) : vec4(0);
+    if (abs(made.a - 1) < kOpaqueRounding) made.a = 1;
+    result[gl_GlobalInvocationID.x] = made;
 }
