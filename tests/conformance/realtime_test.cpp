@@ -215,6 +215,18 @@ TEST_F(Realtime, SmallBlursAreThoseOfFinalFrames) {
     }
 }
 
+// A surface slightly before focus, in front of a bright wall: two pixels inside its rim none of the wall
+// shows through.
+TEST_F(Realtime, AHardlyBlurredSurfaceHidesWhatIsBehindIt) {
+    for (const float coc_px : {-0.8f, -0.95f, -1.1f}) {
+        Shot shot = flat(64, 48, {0.9f, 0.9f, 0.9f, 1}, 1.3f);
+        for (int y = 0; y < 48; ++y)
+            for (int x = 0; x < 32; ++x)
+                shot.colour(x, y) = {0.02f, 0.02f, 0.02f, 1}, shot.coc_px(x, y) = coc_px;
+        for (Session& session : sessions_) EXPECT_NEAR(drawn(session, shot)(29, 24).g, 0.02, 0.003) << coc_px;
+    }
+}
+
 // A thin bar far in front of focus hides almost nothing: the surface beside it continues behind it.
 TEST_F(Realtime, WhatAThinThingHidesIsWhatIsBesideIt) {
     Shot shot = flat(160, 80, {0.2f, 0.2f, 0.2f, 1}, 0);

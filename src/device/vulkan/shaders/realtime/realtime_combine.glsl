@@ -26,8 +26,12 @@ shared vec2 window_discs[kAcross * kAcross];  // signed reach, at least half a p
 shared uint widest_px[3], farthest_px;
 const int kToRight = kRim * kSquare + kRim + 1;
 shared float inside[kSquare * kSquare];  // by offset, from (-kRim, -kRim): half a pixel less the distance
-float of_each(float radius_px) {
-    return (1 - blurred_share(radius_px)) / max(1.0, 3.14159 * radius_px * radius_px);
+// Light that each pixel of a disc gets: in all as much as the disc has. The numbers are distances of the eight nearest rings of
+// pixels from the middle, less half a pixel, and how many pixels each has.
+float of_each(float radius_px, float reach) {
+    const vec4 near = clamp(reach - vec4(0.5, 0.9142, 1.5, 1.7361), vec4(0), vec4(1));
+    const vec4 far = clamp(reach - vec4(2.3284, 2.5, 2.6623, 3.1056), vec4(0), vec4(1));
+    return (1 - blurred_share(radius_px)) / (1 + dot(near, vec4(4, 4, 4, 8)) + dot(far, vec4(4, 4, 8, 8)));
 }
 // The signed reach of a disc, and the light that each of its pixels gets. A disc covers a pixel half if their middles are
 // as far apart as its reach: a circle's rim bends away from a square's side.
@@ -35,7 +39,7 @@ vec2 disc_of(float radius) {
     const float all = abs(radius);
     if (all <= 0.5) return vec2(radius < 0 ? -0.5 : 0.5, 1);
     const float reach = max(all - 1 / (24 * all), 0.5);
-    return vec2(radius < 0 ? -reach : reach, all < kWholePx ? of_each(all) : 0.0);
+    return vec2(radius < 0 ? -reach : reach, all < kWholePx ? of_each(all, reach) : 0.0);
 }
 // Radii of the pixels that one invocation has read; widest_px and farthest_px are made of them.
 struct Widest {
@@ -156,7 +160,7 @@ float reveal(int own, float radius) {
     barrier();
     if (behind.sharp > 0) {
         window[own] = behind.light;
-        window_discs[own] = vec2(behind.disc, behind.sharp * of_each(abs(behind.disc)));
+        window_discs[own] = vec2(behind.disc, behind.sharp * of_each(abs(behind.disc), abs(behind.disc)));
         radius = behind.disc;
     }
     barrier();
