@@ -19,7 +19,7 @@ void add_taps(int taps, const RealtimeZones& zones, std::vector<Rgba>& fours) {
     constexpr double kFiner = 0.75;
     fours.push_back({float(taps), float(kFiner * std::sqrt(std::numbers::pi / taps)), float(zones.columns),
                      float(zones.rows)});
-    for (int set = 0; set < RealtimeLens::kGrid; ++set)
+    for (int set = 0; set < RealtimeLens::kSpirals; ++set)
         for (int i = 0; i < RealtimeLens::kMostTaps; ++i) {
             const double area = i == 0 || i >= taps ? 0 : i + 0.5;  // the first is for tiny discs
             const double r = std::sqrt(area / taps),
@@ -32,7 +32,7 @@ void add_taps(int taps, const RealtimeZones& zones, std::vector<Rgba>& fours) {
 // Small discs take every cell that they reach, because taps on a spiral leave some out: half as many cells
 // again as taps, in whole rings around the middle.
 void add_grid(int taps, std::vector<Rgba>& fours) {
-    constexpr int kFarthest = 8, kMost = RealtimeLens::kMostTaps - 1;
+    constexpr int kFarthest = 8, kMost = RealtimeLens::kGridTaps - 1;
     constexpr double kBeyond = 0.6;         // cells: a disc reaches cells this far beyond its rim
     std::vector<std::array<int, 3>> cells;  // squared distance, place
     for (int y = -kFarthest; y <= kFarthest; ++y)
@@ -43,7 +43,7 @@ void add_grid(int taps, std::vector<Rgba>& fours) {
     const auto distance = [&](std::size_t i) { return std::sqrt(double(cells[i][0])); };
     const double radius = distance(count) - kBeyond;
     std::size_t reached = 0;
-    for (std::size_t i = 0; i < RealtimeLens::kMostTaps; ++i) {
+    for (std::size_t i = 0; i < RealtimeLens::kGridTaps; ++i) {
         while (reached < count && distance(reached) < double(i + 1) / 8 + kBeyond) ++reached;
         Rgba tap{0, 0, 0, i < std::size_t(kMost) ? float(reached) : float(radius)};
         if (i < count) {
@@ -140,11 +140,12 @@ void add_weights(const std::vector<Rgba>& shape, std::vector<Rgba>& fours) {
     constexpr float kLeast = 0.05f;
     constexpr int kShares = RealtimeLens::kShares;
     const float radius = fours[RealtimeLens::kWeights - 1].a;  // of the grid
-    for (std::size_t set = 0; set < RealtimeLens::kSets; ++set) {
+    for (std::size_t set = 0; set <= RealtimeLens::kSpirals; ++set) {
         const std::size_t begins = fours.size(), first = 1 + set * RealtimeLens::kMostTaps;
-        const bool is_grid = set == RealtimeLens::kGrid;
-        const auto taps = std::size_t(is_grid ? fours[first + RealtimeLens::kMostTaps - 2].a : fours[0].r);
-        fours.resize(begins + std::size_t(RealtimeLens::kMostTaps) * kShares);
+        const bool is_grid = set == RealtimeLens::kSpirals;
+        const auto room = std::size_t(is_grid ? RealtimeLens::kGridTaps : RealtimeLens::kMostTaps);
+        const auto taps = std::size_t(is_grid ? fours[first + room - 2].a : fours[0].r);
+        fours.resize(begins + room * kShares);
         for (int k = 0; k < kShares; ++k) {
             const float share = std::max(float(k) / (kShares - 1), 1e-3f);
             const auto at = [&](std::size_t i) -> Rgba& {

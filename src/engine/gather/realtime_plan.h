@@ -56,20 +56,20 @@ RealtimeZones realtime_zones(const kernel::LensModel& lens, double width, double
 
 // The lens as fours of floats. The first four is a head: number of taps, side of the squares that they read
 // on a disc of radius 1, columns and rows of zones. Taps over that disc follow (x, y, distance from the
-// middle, weight near it): kGrid spirals of kMostTaps, one for each of the four cells of a square, because
-// their taps together are as good as four times as many. Set kGrid has whole cells, nearest first, for discs
-// up to a radius in cells: that of its disc, which is the fourth number of its last tap. The fourth number of
-// tap i is how many of them a disc up to (i + 1) / 8 cells takes. Then each zone has the weights of its taps,
-// kShares for each tap of each set, for light blurred by 0 to 1 of the disc's radius, in front of focus and
-// then behind it. A weight has r, g, b and a, and each of these sums to 1 over the taps. The LampKernels of a
-// zone come last.
+// middle, weight near it): kSpirals of kMostTaps, one for each of the four cells of a square, because
+// their taps together are as good as four times as many. Then come kGridTaps whole cells, nearest first, for
+// discs up to a radius in cells: that of its disc, which is the fourth number of its last tap. The fourth
+// number of tap i is how many of them a disc up to (i + 1) / 8 cells takes. Then each zone has the weights of
+// its taps, kShares for each tap of each set, for light blurred by 0 to 1 of the disc's radius, in front of
+// focus and then behind it. A weight has r, g, b and a, and each of these sums to 1 over the taps. The
+// LampKernels of a zone come last.
 struct RealtimeLens {
-    static constexpr int kMostTaps = 127, kSets = 5, kShares = 64, kGrid = 4;
-    static constexpr std::size_t kWeights =
-        std::size_t(1) + std::size_t(kSets) * kMostTaps;  // where they begin
+    static constexpr int kMostTaps = 127, kSpirals = 4, kGridTaps = 72, kShares = 64;
+    static constexpr int kTaps = kSpirals * kMostTaps + kGridTaps;
+    static constexpr std::size_t kWeights = std::size_t(1) + std::size_t(kTaps);  // where they begin
     static constexpr std::size_t kOfZone =
-        2 * std::size_t(kSets) * kMostTaps * kShares + 2 * (LampKernels::kSteps + LampKernels::weights());
-    static_assert(kOfZone == 149080, "as shaders/realtime.glsl has it");
+        2 * std::size_t(kTaps) * kShares + 2 * (LampKernels::kSteps + LampKernels::weights());
+    static_assert(kOfZone == 142040, "as shaders/realtime.glsl has it");
     std::vector<Rgba> fours;  // kWeights, and kOfZone for each zone
     std::size_t bytes() const { return fours.size() * sizeof(Rgba); }
 };

@@ -31,15 +31,20 @@ TEST(RealtimeLens, CountsOneOfAPlaneAtEveryRadius) {
         const RealtimeLens lens = *ideal_lens(taps);
         ASSERT_EQ(lens.fours.size(), RealtimeLens::kWeights + RealtimeLens::kOfZone);
         EXPECT_EQ(lens.fours[0].r, float(taps));
-        constexpr std::size_t kShares = RealtimeLens::kShares, kOfSet = RealtimeLens::kMostTaps * kShares;
+        constexpr std::size_t kShares = RealtimeLens::kShares, kSets = RealtimeLens::kSpirals + 1;
         // In front of focus, then behind it.
-        for (std::size_t set = 0; set < 2 * std::size_t(RealtimeLens::kSets); ++set)
+        for (std::size_t set = 0; set < 2 * kSets; ++set) {
+            const bool is_grid = set % kSets == RealtimeLens::kSpirals;
+            const auto count = std::size_t(is_grid ? RealtimeLens::kGridTaps : taps);
+            const std::size_t side = set / kSets * std::size_t(RealtimeLens::kTaps),
+                              first = side + set % kSets * RealtimeLens::kMostTaps;
             for (std::size_t share = 0; share < kShares; ++share) {
                 float sum = 0;
-                for (std::size_t i = 0; i < std::size_t(RealtimeLens::kMostTaps); ++i)
-                    sum += lens.fours[RealtimeLens::kWeights + set * kOfSet + i * kShares + share].a;
-                EXPECT_NEAR(sum, 1, 1e-5) << taps << " taps, share " << share;
+                for (std::size_t i = 0; i < count; ++i)
+                    sum += lens.fours[RealtimeLens::kWeights + (first + i) * kShares + share].a;
+                EXPECT_NEAR(sum, 1, 1e-5) << taps << " taps, set " << set << ", share " << share;
             }
+        }
     }
 }
 
@@ -47,7 +52,7 @@ TEST(RealtimeLens, CountsOneOfAPlaneAtEveryRadius) {
 TEST(RealtimeLens, SmallDiscsAreAsWideAsTheirRadius) {
     using engine::RealtimeLens;
     constexpr std::size_t kOfTap = RealtimeLens::kShares,
-                          kFirst = 1 + RealtimeLens::kGrid * RealtimeLens::kMostTaps;
+                          kFirst = 1 + RealtimeLens::kSpirals * RealtimeLens::kMostTaps;
     const RealtimeLens lens = *ideal_lens();
     const float most = lens.fours[RealtimeLens::kWeights - 1].a;
     EXPECT_NEAR(most, 4.4, 0.01);  // 69 cells, the next are 5 cells away; 0.6 cells less

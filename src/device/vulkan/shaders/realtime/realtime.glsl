@@ -10,7 +10,8 @@ layout(push_constant) uniform Push {
 } at;
 
 // The lens as fours of floats: number of taps, their side, columns and rows of zones; taps; then the weights of each zone.
-const int kMostTaps = 127, kSets = 5, kGrid = 4, kShares = 64, kFirstZone = 1 + kSets * kMostTaps, kOfZone = 149080;
+const int kMostTaps = 127, kSpirals = 4, kGridTaps = 72, kTaps = kSpirals * kMostTaps + kGridTaps;
+const int kShares = 64, kFirstZone = 1 + kTaps, kOfZone = 142040;
 // Place in the grid of zones, from its first node.
 vec2 zone_place(vec2 pixel, vec2 zones) { return clamp(at.zone_scale * pixel + at.zone_add, vec2(0), vec2(1)) * (zones - 1); }
 

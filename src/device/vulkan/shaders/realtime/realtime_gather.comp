@@ -11,7 +11,7 @@ layout(std430, binding = 2) readonly buffer Reach { vec4 reach[]; };  // realtim
 layout(binding = 3, rgba16f) writeonly uniform image2DArray gathered;
 #include "realtime.glsl"
 
-const int kFarSide = kSets * kMostTaps * kShares;  // from the first weight of a zone
+const int kFarSide = kTaps * kShares;  // from the first weight of a zone
 const float kLeastArea = 1e-4;
 const float kCovers = 0.9995;  // a share of near light that hides what is behind
 const float kNearestPx = 4, kFarther = 1.5;  // where what is hidden is looked for: first, and then each time as far
@@ -20,7 +20,7 @@ int first_tap, taps;              // of the cell's own spiral; their number
 int first_of_zone, first_weight;  // of the cell's zone; of its spiral there, in front of focus
 float tap_side;                   // of the square that a tap reads on a disc of radius 1
 vec2 texel;                       // size of a cell
-const int kFirstGrid = 1 + kGrid * kMostTaps, kLastGrid = kFirstGrid + kMostTaps - 1;
+const int kFirstGrid = 1 + kSpirals * kMostTaps, kLastGrid = kFirstGrid + kGridTaps - 1;
 const float kMostShare = float(kShares - 1);
 // A disc of cells: reads at middle + tap * scale, from this level.
 struct Disc {
@@ -34,7 +34,7 @@ Disc disc_of(vec2 middle, float radius_px) {
     const float grid_px = 2 * lens[kLastGrid].w;
     const vec2 scale = 0.5 * vec2(1, at.aspect) * texel;
     if (radius_px <= grid_px) {
-        const int count = int(lens[kFirstGrid + int(4 * radius_px)].w), weights = first_of_zone + kGrid * kMostTaps * kShares;
+        const int count = int(lens[kFirstGrid + int(4 * radius_px)].w), weights = first_of_zone + kSpirals * kMostTaps * kShares;
         const float per_px = kMostShare / grid_px;
         return Disc(middle * texel, grid_px * scale, 0, kFirstGrid, kFirstGrid + count, weights, per_px, per_px * radius_px);
     }
@@ -254,7 +254,7 @@ void main() {
     first_tap = 1 + kMostTaps * set;
     texel = 1 / vec2(8 * at.tiles);
     // Each set takes the nearest zone of another fraction, so that the mean of the four interpolates between zones.
-    const vec2 fraction = (vec2(set, (set & 1) * 2 + (set >> 1)) + 0.5) / float(kGrid);
+    const vec2 fraction = (vec2(set, (set & 1) * 2 + (set >> 1)) + 0.5) / float(kSpirals);
     const ivec2 zone = ivec2(zone_place(2 * middle, head.zw) + fraction);
     first_of_zone = kFirstZone + kOfZone * (zone.y * int(head.z) + zone.x);
     first_weight = first_of_zone + kMostTaps * set * kShares;

@@ -3,7 +3,7 @@ layout(std430, binding = 5) readonly buffer Lens { vec4 lens[]; };    // engine/
 layout(std430, binding = 6) readonly buffer Lamps { uvec4 lamps[]; };  // realtime_reach.comp: kept
 layout(std430, binding = 7) readonly buffer Boxes { ivec4 boxes[]; };  // realtime_reach.comp
 
-const int kLampSteps = 14, kFirstStep = kFirstZone + 2 * kSets * kMostTaps * kShares;
+const int kLampSteps = 14, kFirstStep = kFirstZone + 2 * kTaps * kShares;
 const float kStepAt = 0.5;  // pixels: the radius of the first kernel; the next are sqrt(2) times as wide each
 
 // Lamps as a group reads them, so many at a time. More shared memory would leave fewer groups in flight.
