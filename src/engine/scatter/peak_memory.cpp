@@ -43,6 +43,20 @@ std::size_t lights_bytes(const EngineView& input, const HighlightSplit& split) {
     return std::size_t(std::min(kPerRadius * radii_px, kMost));
 }
 
+double samples_per_pixel(const EngineView& input) {
+    constexpr double kPerSilhouettePixel = 3.2, kPerHidingPixel = 0.8;
+    const double pixels = double(input.width()) * double(input.height());
+    if (!input.samples.deep.empty())
+        return std::max(1.0, double(input.samples.deep.samples().size()) / pixels);
+    const Silhouettes silhouettes = silhouettes_of(input.samples.coc_px, *input.services.workers);
+    return 1 + kPerSilhouettePixel * silhouettes.at + kPerHidingPixel * silhouettes.hiding;
+}
+
+double layer_bytes_per_pixel(std::size_t layers, double samples) {
+    constexpr double kCopy = 50, kCopyOfSample = 92;
+    return layers > 0 ? kCopy + samples * (kCopyOfSample + double(layers * sizeof(Rgba))) : 0;
+}
+
 std::size_t bytes_at_once(const EngineView& input, const LevelRule& rule, const HighlightSplit& split,
                           bool has_spare) {
     // Pixels at silhouettes, and pixels that hide a surface, have more samples and sources. Lights come when
@@ -50,8 +64,8 @@ std::size_t bytes_at_once(const EngineView& input, const LevelRule& rule, const 
     constexpr double kPerPixel = 39, kPerCell = 82, kPerSilhouettePixel = 305, kPerHidingPixel = 80,
                      kGoneBeforeLights = 16, kFixed = 13 << 20, kProcess = 22 << 20, kAberrated = 28 << 20,
                      kByPlace = 28 << 20;
-    const bool flat = input.samples.deep.empty() && input.samples.plate.empty() &&
-                      input.samples.layers.empty() && input.samples.holdout.empty();
+    const bool flat =
+        input.samples.deep.empty() && input.samples.plate.empty() && input.samples.holdout.empty();
     if (!flat) return std::numeric_limits<std::size_t>::max();
     Workers& workers = *input.services.workers;
     const View<const float> coc_px = input.samples.coc_px;
@@ -60,13 +74,18 @@ std::size_t bytes_at_once(const EngineView& input, const LevelRule& rule, const 
     const double per_pixel = kPerPixel + (has_spare ? 0 : sizeof(Rgba)) +
                              kPerCell * cells_per_pixel(coc_px, rule, workers) +
                              kPerSilhouettePixel * silhouettes.at + kPerHidingPixel * silhouettes.hiding;
+    const std::size_t layers = input.samples.layers.size();
+    const double of_layers = layers == 0 ? 0
+                                         : double(2 * layers * sizeof(Rgba)) +
+                                               layer_bytes_per_pixel(layers, samples_per_pixel(input));
     const double lights = std::max(0.0, double(lights_bytes(input, split)) - kGoneBeforeLights * pixels);
     // The fit to large pictures leaves 13 MiB for an empty one, where the process takes 22.
     const double fixed = std::max(kFixed, kProcess - 17 * pixels);
     const kernel::LensModel& lens = input.lens.level(0);
     const double kernels =
         (lens.reach_px(0) > 0.5 ? kAberrated : 0) + (lens.varies_over_field() ? kByPlace : 0);
-    return std::size_t(per_pixel * pixels + lights + kernels + fixed) + input.services.beside_bytes;
+    return std::size_t((per_pixel + of_layers) * pixels + lights + kernels + fixed) +
+           input.services.beside_bytes;
 }
 
 }  // namespace petzval::engine

@@ -4,7 +4,6 @@
 #include "kernel/lenses/make_lens.h"
 
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <vector>
 
@@ -70,10 +69,26 @@ TEST(PeakMemory, LightsAskForMoreByTheirRadiusUpToALimit) {
     EXPECT_EQ(lights(lamps), std::size_t(64) << 20);
 }
 
-TEST(PeakMemory, APictureWithLayersHasNoEstimate) {
+TEST(PeakMemory, TheFirstLayerAsksForMoreThanTheOthers) {
     Grey grey(5);
-    grey.input.samples.layers.resize(1);
-    EXPECT_EQ(grey.bytes(), std::numeric_limits<std::size_t>::max());
+    constexpr double kPixels = double(kFrameWidth) * kFrameHeight;
+    const auto more = [&](std::size_t layers) {
+        const auto before = double(grey.bytes());
+        grey.input.samples.layers.resize(layers);
+        return (double(grey.bytes()) - before) / kPixels;
+    };
+    EXPECT_NEAR(more(1), 32 + 50 + 92 + 16, 1);  // per pixel; a plain surface has one sample in each
+    EXPECT_NEAR(more(2), 32 + 16, 1);
+    EXPECT_NEAR(more(3), 32 + 16, 1);
+}
+
+TEST(PeakMemory, SilhouettesGiveMoreSamples) {
+    Grey grey(5);
+    grey.bytes();  // sets the pictures
+    EXPECT_EQ(samples_per_pixel(grey.input), 1);
+    for (int y = 0; y < kFrameHeight; ++y)
+        for (int x = 0; x < kFrameWidth; x += 8) grey.coc_px(x, y) = -10;
+    EXPECT_GT(samples_per_pixel(grey.input), 2);
 }
 
 }  // namespace

@@ -53,8 +53,19 @@ struct StripPlan {
     int rows = 0, halo = 0;
 };
 
-// Working memory: 80 to 120 bytes a pixel were measured on the built-in scenes as flat pictures.
-constexpr std::size_t kBytesPerPixel = 20, kBytesPerSample = 110;
+// Working memory of a strip. Without layers, 80 to 120 bytes a pixel were measured on the built-in scenes as
+// flat pictures; with two layers 185 to 494, and that beside those of the layers grew with the samples.
+double working_bytes_per_pixel(const EngineView& input) {
+    constexpr double kPixel = 20, kDeepSample = 110, kSampleBesideLayers = 150;
+    const CocSamplesView& deep = input.samples.deep;
+    const std::size_t layers = input.samples.layers.size();
+    const double pixels = double(input.width()) * double(input.height());
+    const double stated = std::max(1.0, double(deep.samples().size()) / pixels);
+    if (layers == 0) return kPixel + kDeepSample * stated;
+    const double samples = samples_per_pixel(input);
+    const double beside = deep.empty() ? kSampleBesideLayers * (samples - 1) : kDeepSample * stated;
+    return kPixel + beside + layer_bytes_per_pixel(layers, samples);
+}
 // Kernels, tables, code: of aberrated lenses 20M more than of the ideal one.
 constexpr std::size_t kFixedWorkingBytes = std::size_t(56) << 20;
 // Strips of wide frames that are narrower are mostly halo.
@@ -92,17 +103,14 @@ Result<StripPlan> plan_strips(const EngineView& input, const LevelRule& rule, co
                             2 * std::min(largest, double(input.height())) + kLookedAtPx);
     const std::size_t pixels = std::size_t(input.width()) * std::size_t(input.height());
     // The caller's colour and depth, the radii and the result exist besides.
-    // Each layer needs the same except the radii.
+    // Each layer has a colour and a result.
     const std::size_t held = pixels * (2 * sizeof(Rgba) + 2 * sizeof(float)) +
                              input.samples.layers.size() * pixels * 2 * sizeof(Rgba) + kFixedWorkingBytes +
                              input.services.beside_bytes;
     std::size_t working = kDefaultWorkingBytes;
     if (input.services.max_memory_bytes > 0)
         working = input.services.max_memory_bytes > held ? input.services.max_memory_bytes - held : 0;
-    const double samples = std::max(1.0, double(input.samples.deep.samples().size()) / double(pixels));
-    // A layer has samples, sources and shares beside the beauty's.
-    const double bytes_per_sample = double(kBytesPerSample) * (input.samples.layers.empty() ? 1 : 3);
-    const auto row_bytes = std::size_t((double(kBytesPerPixel) + bytes_per_sample * samples) * input.width());
+    const auto row_bytes = std::size_t(working_bytes_per_pixel(input) * double(input.width()));
     const std::size_t rows = working / row_bytes;
     const std::size_t at_once =
         input.services.max_memory_bytes > 0 ? bytes_at_once(input, rule, split, has_spare) : 0;
