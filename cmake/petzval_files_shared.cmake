@@ -13,7 +13,7 @@ set_target_properties(petzval_files_shared PROPERTIES OUTPUT_NAME petzval-files 
 target_compile_definitions(petzval_files_shared PRIVATE PETZVAL_BUILDS_C)
 target_link_libraries(petzval_files_shared PRIVATE $<BUILD_INTERFACE:petzval_options>
                       $<BUILD_INTERFACE:nlohmann_json::nlohmann_json> petzval_lib_files petzval_lib_scenes petzval)
-target_link_options(petzval_files_shared PRIVATE -Wl,--version-script=${map} -Wl,--no-undefined -Wl,-z,nodelete
+target_link_options(petzval_files_shared PRIVATE -Wl,--version-script=${map} ${petzval_no_undefined} -Wl,-z,nodelete
                     -Wl,--exclude-libs,ALL)
 target_include_directories(petzval_files_shared INTERFACE
   $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)

@@ -1,13 +1,19 @@
 # Presets asan and tsan. petzval_sanitizer is empty, asan or tsan.
 set(petzval_sanitizer "")
+set(petzval_no_undefined -Wl,--no-undefined)
 set(petzval_test_seconds 900)     # a test that hangs ends here; tests share their machine
 set(petzval_host_environment "")  # more of an interpreter that loads libpetzval.so
 if(CMAKE_CXX_FLAGS MATCHES "fsanitize=(address|thread)" AND PETZVAL_TESTS)
   string(SUBSTRING ${CMAKE_MATCH_1} 0 1 petzval_sanitizer)
   string(APPEND petzval_sanitizer san)
   set(petzval_test_seconds 9000)
-  # The runtime is a shared library, because an interpreter must load it before our libraries.
-  add_link_options(-shared-libsan)
+  # The runtime is a shared library, because an interpreter must load it before our libraries. tsan's must
+  # start before any library, so it is a part of our programs, and our libraries find it there.
+  if(petzval_sanitizer STREQUAL asan)
+    add_link_options(-shared-libsan)
+  else()
+    set(petzval_no_undefined "")
+  endif()
   execute_process(COMMAND ${CMAKE_CXX_COMPILER} -print-file-name=libclang_rt.${petzval_sanitizer}-x86_64.so
                   OUTPUT_VARIABLE runtime OUTPUT_STRIP_TRAILING_WHITESPACE)
   if(NOT EXISTS "${runtime}")

@@ -17,7 +17,7 @@ set_source_files_properties(${c_door} PROPERTIES COMPILE_OPTIONS -g)
 target_link_libraries(petzval_shared PRIVATE $<BUILD_INTERFACE:petzval_options> $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>
                       ${core_links})
 # nodelete: TBB's workers outlive the sessions, and run in code that dlclose would unmap.
-target_link_options(petzval_shared PRIVATE -Wl,--version-script=${map} -Wl,--no-undefined -Wl,-z,nodelete)
+target_link_options(petzval_shared PRIVATE -Wl,--version-script=${map} ${petzval_no_undefined} -Wl,-z,nodelete)
 if(PETZVAL_PORTABLE)
   target_link_options(petzval_shared PRIVATE -static-libstdc++ -static-libgcc -s)
   set_target_properties(petzval_shared PROPERTIES BUILD_RPATH "$ORIGIN" INSTALL_RPATH "$ORIGIN")
