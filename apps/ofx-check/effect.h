@@ -96,7 +96,7 @@ struct ofx::Effect {
     PropertySet properties;
     ParamSet params;
     std::vector<std::unique_ptr<Clip>> clips;
-    ofx_check::FrameState* frame = nullptr;  // the last that was begun
+    std::atomic<ofx_check::FrameState*> frame{nullptr};  // the last that was begun, by any thread
 
     explicit Effect(bool instance)
         : is_instance(instance), properties(instance ? "instance" : "effect", !instance) {}

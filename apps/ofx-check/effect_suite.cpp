@@ -18,7 +18,8 @@ thread_local FrameState* frame_now = nullptr;
 FrameState& state_of(const ofx::Effect& effect) {
     static FrameState none;
     if (frame_now) return *frame_now;
-    return effect.frame ? *effect.frame : none;
+    FrameState* const last = effect.frame;
+    return last ? *last : none;
 }
 
 namespace {
