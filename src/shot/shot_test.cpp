@@ -348,7 +348,7 @@ TEST_F(Shots, ReadingEndsWhenNobodyWantsIt) {
 
 TEST_F(Shots, ReadingEndsWithinAFile) {
     write_picture(source.path, {0, 0, 400, 2000});
-    int asked = 0;
+    std::atomic<int> asked = 0;
     ASSERT_TRUE(read_shot(source, {.cancelled = [&] { return ++asked < 0; }}));
     EXPECT_GT(asked, 50);
     asked = 0;
