@@ -50,6 +50,7 @@ struct FrameState {
     FrameRequest request;
     std::shared_ptr<GuardedImage> output;  // kept to be read
     ofx::RectI output_bounds{};
+    std::map<const ofx::Clip*, ofx::RectI> needed{};  // pixels of inputs that the regions of interest gave
 };
 
 // The action that this thread's plug-in is in; null: none. And its frame, which threads of its own do not
@@ -85,7 +86,6 @@ struct ofx::Clip {
     PropertySet properties;
     ofx_check::Picture picture;  // at render scale 1; empty: not connected
     Effect* effect = nullptr;
-    RectI needed{};  // pixels that the region of interest gave
 
     Clip(std::string clip_name, const char* object, bool plugin_writes)
         : name(std::move(clip_name)), properties(object, plugin_writes) {}

@@ -59,9 +59,11 @@ ofx::RectI scaled_region(const ofx::Effect& effect, const ofx::Clip& clip) {
 
 Picture input_of(const ofx::Effect& effect, const ofx::Clip& clip) {
     Picture picture = scaled(clip.picture, state_of(effect).request.scale);
-    const bool cropped = state_of(effect).request.only_needed && clip.needed.x2 > clip.needed.x1;
-    if (!cropped) return picture;
-    const ofx::RectI &b = picture.bounds, &n = clip.needed;
+    const FrameState& frame = state_of(effect);
+    const auto needed = frame.needed.find(&clip);
+    if (!frame.request.only_needed || needed == frame.needed.end() || needed->second.x2 <= needed->second.x1)
+        return picture;
+    const ofx::RectI &b = picture.bounds, &n = needed->second;
     const ofx::RectI part{std::max(b.x1, n.x1), std::max(b.y1, n.y1), std::min(b.x2, n.x2),
                           std::min(b.y2, n.y2)};
     return part.x2 > part.x1 && part.y2 > part.y1 ? part_of(picture, part) : picture;

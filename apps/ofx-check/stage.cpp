@@ -266,7 +266,7 @@ void Stage::ask_interest(ofx::Effect& effect, const FrameRequest& request, const
         held("regions.valid");
         if (!is_rectangle(needed))
             broken("regions.valid", "the region of interest in " + clip->name + " ends before it begins");
-        clip->needed = in_pixels(needed, request.scale);
+        state_of(effect).needed[clip.get()] = in_pixels(needed, request.scale);
     }
 }
 
@@ -322,7 +322,7 @@ int Stage::render_window(ofx::Effect& effect, const FrameRequest& request, const
 }
 
 Rendered Stage::render(ofx::Effect& effect, const FrameRequest& request) {
-    FrameState frame{request, nullptr, {}};
+    FrameState frame{request, nullptr, {}, {}};
     FrameState* before = std::exchange(frame_now, &frame);
     effect.frame = &frame;
     Rendered rendered;

@@ -16,10 +16,25 @@ namespace {
 using namespace ofx;
 
 const Host* host = nullptr;
-const PropertySuite* props = nullptr;
-const ImageEffectSuite* effects = nullptr;
-const ParameterSuite* params = nullptr;
-const MessageSuite* messages = nullptr;
+
+// Functions of the host. A host may load the plug-in again while other threads render.
+template <typename Functions>
+class Suite {
+public:
+    Suite& operator=(const Functions* functions) {
+        functions_ = functions;
+        return *this;
+    }
+    const Functions* operator->() const { return functions_; }
+    explicit operator bool() const { return functions_ != nullptr; }
+
+private:
+    std::atomic<const Functions*> functions_{nullptr};
+};
+Suite<PropertySuite> props;
+Suite<ImageEffectSuite> effects;
+Suite<ParameterSuite> params;
+Suite<MessageSuite> messages;
 bool was_unloaded = false;
 std::atomic<int> renders{0}, instances{0};
 float shared_value = 0;
