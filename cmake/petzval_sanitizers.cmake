@@ -7,22 +7,21 @@ if(CMAKE_CXX_FLAGS MATCHES "fsanitize=(address|thread)" AND PETZVAL_TESTS)
   string(SUBSTRING ${CMAKE_MATCH_1} 0 1 petzval_sanitizer)
   string(APPEND petzval_sanitizer san)
   set(petzval_test_seconds 9000)
-  # The runtime is a shared library, because an interpreter must load it before our libraries. tsan's must
-  # start before any library, so it is a part of our programs, and our libraries find it there.
+  # asan's runtime is a shared library that an interpreter loads before our libraries. tsan's must start before
+  # any library, so it is a part of our programs, our libraries find it there, and no interpreter runs them.
   if(petzval_sanitizer STREQUAL asan)
-    add_link_options(-shared-libsan)
+    execute_process(COMMAND ${CMAKE_CXX_COMPILER} -print-file-name=libclang_rt.asan-x86_64.so
+                    OUTPUT_VARIABLE runtime OUTPUT_STRIP_TRAILING_WHITESPACE)
+    if(NOT EXISTS "${runtime}")
+      message(FATAL_ERROR "libclang_rt.asan-x86_64.so not found; libclang-rt-14-dev contains it")
+    endif()
+    get_filename_component(runtime_folder ${runtime} DIRECTORY)
+    add_link_options(-shared-libsan -Wl,-rpath,${runtime_folder})
+    # Memory that an interpreter holds to its end is no leak of ours.
+    set(petzval_host_environment ";LD_PRELOAD=${runtime};ASAN_OPTIONS=exitcode=99:detect_leaks=0")
   else()
     set(petzval_no_undefined "")
   endif()
-  execute_process(COMMAND ${CMAKE_CXX_COMPILER} -print-file-name=libclang_rt.${petzval_sanitizer}-x86_64.so
-                  OUTPUT_VARIABLE runtime OUTPUT_STRIP_TRAILING_WHITESPACE)
-  if(NOT EXISTS "${runtime}")
-    message(FATAL_ERROR "libclang_rt.${petzval_sanitizer}-x86_64.so not found; libclang-rt-14-dev contains it")
-  endif()
-  get_filename_component(runtime_folder ${runtime} DIRECTORY)
-  add_link_options(-Wl,-rpath,${runtime_folder})
-  # Memory that an interpreter holds to its end is no leak of ours.
-  set(petzval_host_environment ";LD_PRELOAD=${runtime};ASAN_OPTIONS=exitcode=99:detect_leaks=0")
   # ctest sets these for every test. No exit code of the program is 99.
   file(WRITE ${PROJECT_BINARY_DIR}/sanitizer_environment.cmake
        "set(ENV{PETZVAL_SANITIZED} 1)\n"
