@@ -17,6 +17,8 @@ struct CompletionModel {
 #define PETZVAL_NUMBER(name, value, ...) float name = value;
 #include "engine/samples/completion_numbers.inc"
 #undef PETZVAL_NUMBER
+    // Two pixels apart from each other that differ by more show two surfaces.
+    float apart_px() const { return 2 * step_px; }
 };
 
 // The numbers that the program uses. Only the bench changes them, before it draws anything.

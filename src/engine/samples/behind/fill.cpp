@@ -34,7 +34,7 @@ struct Band {
             for (int x = square.x0; x < square.x1; ++x) {
                 const Mixture* m = mixtures.at(x, y);
                 // (A silhouette's farther surface hides another one if it lies in front of focus itself.)
-                if (m && m->shows_far && m->far_coc_px > -completion_model.step_px) continue;
+                if (m && m->shows_far && m->far_coc_px > -completion_model.apart_px()) continue;
                 if ((m && !m->shows_far ? m->near_coc_px : coc(x, y)) > rule.hides_before_px) continue;
                 const auto beside = m ? std::nullopt : surfaces.beside(x, y);
                 if (!beside && (!m || m->shows_far) && !surfaces.may_hide(x, y)) continue;

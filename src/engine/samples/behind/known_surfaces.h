@@ -11,9 +11,9 @@
 
 namespace petzval::engine {
 
-// The largest difference of radii between two pixels that may show one surface.
+// The largest difference of radii between two pixels, some distance apart, that may show one surface.
 inline float surface_step_px(float coc_a_px, float coc_b_px) {
-    return completion_model.step_px + completion_model.step_share * std::abs(coc_a_px + coc_b_px);
+    return completion_model.apart_px() + completion_model.step_share * std::abs(coc_a_px + coc_b_px);
 }
 inline bool one_surface(float coc_a_px, float coc_b_px) {
     return std::abs(coc_a_px - coc_b_px) < surface_step_px(coc_a_px, coc_b_px);
@@ -25,7 +25,7 @@ inline bool one_surface(float coc_a_px, float coc_b_px) {
 inline float third_surface_px(float own_px, float threshold_px) {
     if (own_px <= threshold_px) return std::numeric_limits<float>::infinity();
     const float slope = completion_model.third_surface * (own_px - threshold_px);
-    return own_px + std::min(completion_model.step_px + surface_step_px(own_px, own_px), slope);
+    return own_px + std::min(surface_step_px(own_px, own_px), slope);
 }
 
 struct Direction {

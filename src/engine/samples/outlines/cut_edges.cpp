@@ -63,7 +63,7 @@ float CutEdges::Around::passes(Point shown, float coc_px) const {
     float open = 1;
     for (const Near& near : near_) {
         const Edge& e = near.edge;
-        if (std::abs(e.coc_px - coc_px) > model.step_px) continue;
+        if (std::abs(e.coc_px - coc_px) > model.apart_px()) continue;
         const FromCut at(e, shown);
         const float a = near.aside, b = at.aside;
         if (a * b >= 0) continue;

@@ -63,7 +63,7 @@ private:
     bool is_thin(int x, int y) const {
         constexpr int kWide = 2;
         if (x < kWide || y < kWide || x + kWide >= coc_.width() || y + kWide >= coc_.height()) return false;
-        const float own = coc_(x, y) + completion_model.step_px;
+        const float own = coc_(x, y) + completion_model.apart_px();
         const auto far = [&](int dx, int dy) {
             return coc_(x + dx, y + dy) > own || coc_(x + 2 * dx, y + 2 * dy) > own;
         };
@@ -87,7 +87,7 @@ private:
     }
     // Goes from pixel to pixel, to the one ahead that differs most from its sides as the strand does.
     void follow(int x, int y, int k, std::vector<Gap>& gaps) const {
-        const float own = coc_(x, y), behind = own + completion_model.step_px;
+        const float own = coc_(x, y), behind = own + completion_model.apart_px();
         const std::optional<Rgba> strand = taken(x, y, k, behind);
         if (!strand) return;
         Gap gap{{}, own, own};
