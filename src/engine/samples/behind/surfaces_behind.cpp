@@ -77,9 +77,9 @@ void SurfacesBehind::fill(int x, int y, std::vector<HiddenGuess>& hidden) const 
     if (reached) stack({x, y, outlines, known_.edges_around(x, y)}, hits, hidden);
 }
 
-// The surfaces met, nearest first. The farthest fills the rest; a nearer one takes the share that it has
-// of the surroundings, so a wire behind a leaf continues as a wire. Where its outline continues hidden,
-// it takes all on its side.
+// Appends the surfaces that were met, nearest first. The farthest surface fills the rest. A nearer surface
+// gets the share that it has of the surroundings, so a wire behind a leaf continues as a wire. Beside its own
+// hidden outline, it gets everything on its side.
 void SurfacesBehind::stack(const HiddenPixel& here, Hits& hits, std::vector<HiddenGuess>& hidden) const {
     float all_behind = 0, unhidden_behind = 0;
     std::array<HiddenGuess, kSurfaces + 1> surfaces;

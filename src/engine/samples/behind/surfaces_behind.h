@@ -20,8 +20,8 @@ public:
     const KnownSurfaces& known() const { return known_; }
     bool may_hide(int x, int y) const { return near_silhouettes_.may_hide(x, y, coc_(x, y)); }
     std::optional<HiddenGuess> beside(int x, int y) const { return surface_beside(known_, coc_, x, y); }
-    // Appends the surfaces behind (x, y), nearest first, if a lens ray that passes the occluder reaches any
-    // of them.
+    // Appends the surfaces behind (x, y), nearest first. If no lens ray that passes the occluder reaches a
+    // surface, nothing is appended.
     void fill(int x, int y, std::vector<HiddenGuess>& hidden) const;
 
 private:
