@@ -81,10 +81,10 @@ PETZVAL_C_API void petzval_pass_close(petzval_pass* pass);
 
 /* Makes the shapes of the look's lens on this camera. It takes milliseconds, or up to seconds for lenses with
  * surfaces. A lens whose discs change over the frame, such as a cat's eye, has 45 shapes: 45 times as long,
- * and 102 MB of the device's memory instead of 2, with as much host-visible memory until the frame after has
- * begun. May be called from any thread, also during petzval_pass_record(): frames use the previous lens until
- * it is done. The look's quality sets the taps of a disc: draft 24, standard 48, final 127. Other fields of
- * the look are not used. */
+ * and 64, 73 or 102 MB of the device's memory (draft, standard, final) instead of 1.4, 1.6 or 2.3, with as
+ * much host-visible memory until the frame after has begun. May be called from any thread, also during
+ * petzval_pass_record(): frames use the previous lens until it is done. The look's quality sets the taps of a
+ * disc: draft 24, standard 48, final 127. Other fields of the look are not used. */
 PETZVAL_C_API petzval_status petzval_pass_set_lens(petzval_pass* pass, const petzval_look* look,
                                                    const petzval_camera* camera);
 

@@ -20,8 +20,8 @@ void add_taps(int taps, const RealtimeZones& zones, std::vector<Rgba>& fours) {
     fours.push_back({float(taps), float(kFiner * std::sqrt(std::numbers::pi / taps)), float(zones.columns),
                      float(zones.rows)});
     for (int set = 0; set < RealtimeLens::kSpirals; ++set)
-        for (int i = 0; i < RealtimeLens::kMostTaps; ++i) {
-            const double area = i == 0 || i >= taps ? 0 : i + 0.5;  // the first is for tiny discs
+        for (int i = 0; i < taps; ++i) {
+            const double area = i == 0 ? 0 : i + 0.5;  // the first is for tiny discs
             const double r = std::sqrt(area / taps),
                          angle = 2 * std::numbers::pi * (std::sqrt(area / 3) + 0.25 * set);
             fours.push_back({float(r * std::cos(angle)), float(r * std::sin(angle)), float(r),
@@ -136,14 +136,15 @@ Rgba weight_of_cell(const std::vector<Rgba>& shape, const Rgba& tap, float share
 }
 
 // A plane blurred by any share of the disc's radius keeps its light.
-void add_weights(const std::vector<Rgba>& shape, std::vector<Rgba>& fours) {
+void add_weights(const std::vector<Rgba>& shape, RealtimeLens& lens) {
     constexpr float kLeast = 0.05f;
     constexpr int kShares = RealtimeLens::kShares;
-    const float radius = fours[RealtimeLens::kWeights - 1].a;  // of the grid
+    std::vector<Rgba>& fours = lens.fours;
+    const float radius = fours[lens.first_zone() - 1].a;  // of the grid
     for (std::size_t set = 0; set <= RealtimeLens::kSpirals; ++set) {
-        const std::size_t begins = fours.size(), first = 1 + set * RealtimeLens::kMostTaps;
+        const std::size_t begins = fours.size(), first = 1 + set * std::size_t(lens.taps());
         const bool is_grid = set == RealtimeLens::kSpirals;
-        const auto room = std::size_t(is_grid ? RealtimeLens::kGridTaps : RealtimeLens::kMostTaps);
+        const auto room = std::size_t(is_grid ? RealtimeLens::kGridTaps : lens.taps());
         const auto taps = std::size_t(is_grid ? fours[first + room - 2].a : fours[0].r);
         fours.resize(begins + room * kShares);
         for (int k = 0; k < kShares; ++k) {
@@ -167,11 +168,12 @@ void add_weights(const std::vector<Rgba>& shape, std::vector<Rgba>& fours) {
 }
 
 void add_zone(const kernel::LensModel& lens, kernel::FieldPosition field, double near_px, double far_px,
-              std::vector<Rgba>& fours) {
+              RealtimeLens& made) {
     const PointSpread near_spread = lens.point_spread(-near_px, field),
                       far_spread = lens.point_spread(far_px, field);
-    add_weights(shape_of(near_spread, near_px), fours);
-    add_weights(shape_of(far_spread, far_px), fours);
+    add_weights(shape_of(near_spread, near_px), made);
+    add_weights(shape_of(far_spread, far_px), made);
+    std::vector<Rgba>& fours = made.fours;
     const std::size_t lamps = fours.size();
     fours.resize(lamps + 2 * std::size_t(LampKernels::kSteps));
     add_lamp_kernels(near_spread, near_px, lamps, fours);
@@ -210,14 +212,13 @@ RealtimeLens realtime_lens(const kernel::LensModel& lens, const RealtimeZones& z
     // Radii of the kernel: large enough to show its shape, small enough to be made in a moment.
     constexpr double kLeastPx = 16, kMostPx = 64;
     RealtimeLens made;
-    std::vector<Rgba>& fours = made.fours;
-    fours.reserve(RealtimeLens::kWeights + zones.count() * RealtimeLens::kOfZone);
-    add_taps(taps, zones, fours);
-    add_grid(taps, fours);
+    add_taps(taps, zones, made.fours);
+    made.fours.reserve(made.first_zone() + zones.count() * made.of_zone());
+    add_grid(taps, made.fours);
     const double near_px = std::clamp(near_radius_px, kLeastPx, kMostPx),
                  far_px = std::clamp(far_radius_px, kLeastPx, kMostPx);
     for (std::uint32_t zone = 0; zone < zones.count(); ++zone)
-        add_zone(lens, zones.at(zone), near_px, far_px, fours);
+        add_zone(lens, zones.at(zone), near_px, far_px, made);
     return made;
 }
 

@@ -56,7 +56,7 @@ RealtimeZones realtime_zones(const kernel::LensModel& lens, double width, double
 
 // The lens as fours of floats. The first four is a head: number of taps, side of the squares that they read
 // on a disc of radius 1, columns and rows of zones. Taps over that disc follow (x, y, distance from the
-// middle, weight near it): kSpirals of kMostTaps, one for each of the four cells of a square, because
+// middle, weight near it): kSpirals of them, one for each of the four cells of a square, because
 // their taps together are as good as four times as many. Then come kGridTaps whole cells, nearest first, for
 // discs up to a radius in cells: that of its disc, which is the fourth number of its last tap. The fourth
 // number of tap i is how many of them a disc up to (i + 1) / 8 cells takes. Then each zone has the weights of
@@ -65,12 +65,13 @@ RealtimeZones realtime_zones(const kernel::LensModel& lens, double width, double
 // LampKernels of a zone come last.
 struct RealtimeLens {
     static constexpr int kMostTaps = 127, kSpirals = 4, kGridTaps = 72, kShares = 64;
-    static constexpr int kTaps = kSpirals * kMostTaps + kGridTaps;
-    static constexpr std::size_t kWeights = std::size_t(1) + std::size_t(kTaps);  // where they begin
-    static constexpr std::size_t kOfZone =
-        2 * std::size_t(kTaps) * kShares + 2 * (LampKernels::kSteps + LampKernels::weights());
-    static_assert(kOfZone == 142040, "as shaders/realtime.glsl has it");
-    std::vector<Rgba> fours;  // kWeights, and kOfZone for each zone
+    static constexpr std::size_t kOfLamps = 2 * (LampKernels::kSteps + LampKernels::weights());
+    static_assert(kOfLamps == 67800, "as shaders/realtime.glsl has it");
+    std::vector<Rgba> fours;
+    int taps() const { return int(fours[0].r); }
+    std::size_t all_taps() const { return std::size_t(kSpirals * taps() + kGridTaps); }
+    std::size_t first_zone() const { return 1 + all_taps(); }  // where weights begin
+    std::size_t of_zone() const { return all_taps() * 2 * kShares + kOfLamps; }
     std::size_t bytes() const { return fours.size() * sizeof(Rgba); }
 };
 

@@ -29,19 +29,18 @@ TEST(RealtimeLens, CountsOneOfAPlaneAtEveryRadius) {
     using engine::RealtimeLens;
     for (const int taps : {24, 48, RealtimeLens::kMostTaps}) {
         const RealtimeLens lens = *ideal_lens(taps);
-        ASSERT_EQ(lens.fours.size(), RealtimeLens::kWeights + RealtimeLens::kOfZone);
-        EXPECT_EQ(lens.fours[0].r, float(taps));
+        EXPECT_EQ(lens.taps(), taps);
+        ASSERT_EQ(lens.fours.size(), lens.first_zone() + lens.of_zone());
         constexpr std::size_t kShares = RealtimeLens::kShares, kSets = RealtimeLens::kSpirals + 1;
         // In front of focus, then behind it.
         for (std::size_t set = 0; set < 2 * kSets; ++set) {
             const bool is_grid = set % kSets == RealtimeLens::kSpirals;
             const auto count = std::size_t(is_grid ? RealtimeLens::kGridTaps : taps);
-            const std::size_t side = set / kSets * std::size_t(RealtimeLens::kTaps),
-                              first = side + set % kSets * RealtimeLens::kMostTaps;
+            const std::size_t first = set / kSets * lens.all_taps() + set % kSets * std::size_t(taps);
             for (std::size_t share = 0; share < kShares; ++share) {
                 float sum = 0;
                 for (std::size_t i = 0; i < count; ++i)
-                    sum += lens.fours[RealtimeLens::kWeights + (first + i) * kShares + share].a;
+                    sum += lens.fours[lens.first_zone() + (first + i) * kShares + share].a;
                 EXPECT_NEAR(sum, 1, 1e-5) << taps << " taps, set " << set << ", share " << share;
             }
         }
@@ -51,18 +50,17 @@ TEST(RealtimeLens, CountsOneOfAPlaneAtEveryRadius) {
 // A disc of radius r has the second moment r² / 2, and the squares of its cells add 1/6 to it.
 TEST(RealtimeLens, SmallDiscsAreAsWideAsTheirRadius) {
     using engine::RealtimeLens;
-    constexpr std::size_t kOfTap = RealtimeLens::kShares,
-                          kFirst = 1 + RealtimeLens::kSpirals * RealtimeLens::kMostTaps;
     const RealtimeLens lens = *ideal_lens();
-    const float most = lens.fours[RealtimeLens::kWeights - 1].a;
+    const std::size_t first = 1 + RealtimeLens::kSpirals * std::size_t(lens.taps());
+    const float most = lens.fours[lens.first_zone() - 1].a;
     EXPECT_NEAR(most, 4.4, 0.01);  // 69 cells, the next are 5 cells away; 0.6 cells less
     for (const std::size_t share : {30, 45, 63}) {
         const float radius = most * float(share) / 63;
         float moment = 0;
         for (std::size_t i = 0; i < 69; ++i) {
-            const Rgba& tap = lens.fours[kFirst + i];
-            const std::size_t weight = (kFirst - 1 + i) * kOfTap + share;
-            moment += most * most * tap.b * tap.b * lens.fours[RealtimeLens::kWeights + weight].a;
+            const Rgba& tap = lens.fours[first + i];
+            const std::size_t weight = (first - 1 + i) * RealtimeLens::kShares + share;
+            moment += most * most * tap.b * tap.b * lens.fours[lens.first_zone() + weight].a;
         }
         EXPECT_NEAR(moment, radius * radius / 2 + 1.0f / 6, 0.05f * moment) << radius << " cells";
     }

@@ -9,9 +9,12 @@ layout(push_constant) uniform Push {
     uint view;  // what is drawn: petzval/vulkan.h
 } at;
 
-// The lens as fours of floats: number of taps, their side, columns and rows of zones; taps; then the weights of each zone.
-const int kMostTaps = 127, kSpirals = 4, kGridTaps = 72, kTaps = kSpirals * kMostTaps + kGridTaps;
-const int kShares = 64, kFirstZone = 1 + kTaps, kOfZone = 142040;
+// The lens as fours of floats: number of taps, their side, columns and rows of zones; taps; then the weights of each zone and
+// its kernels of lamps.
+const int kSpirals = 4, kGridTaps = 72, kShares = 64, kOfLamps = 67800;
+int all_taps_of(vec4 head) { return kSpirals * int(head.x) + kGridTaps; }
+int first_zone_of(vec4 head) { return 1 + all_taps_of(head); }
+int size_of_zone(vec4 head) { return 2 * kShares * all_taps_of(head) + kOfLamps; }
 // Place in the grid of zones, from its first node.
 vec2 zone_place(vec2 pixel, vec2 zones) { return clamp(at.zone_scale * pixel + at.zone_add, vec2(0), vec2(1)) * (zones - 1); }
 

@@ -11,16 +11,16 @@ layout(std430, binding = 2) readonly buffer Reach { vec4 reach[]; };  // realtim
 layout(binding = 3, rgba16f) writeonly uniform image2DArray gathered;
 #include "realtime.glsl"
 
-const int kFarSide = kTaps * kShares;  // from the first weight of a zone
 const float kLeastArea = 1e-4;
 const float kCovers = 0.9995;  // a share of near light that hides what is behind
 const float kNearestPx = 4, kFarther = 1.5;  // where what is hidden is looked for: first, and then each time as far
 
 int first_tap, taps;              // of the cell's own spiral; their number
-int first_of_zone, first_weight;  // of the cell's zone; of its spiral there, in front of focus
+int first_weight;                 // of this spiral in the cell's zone, in front of focus
+int first_grid, grid_weight;      // the same of whole cells
+int far_side;                     // from a weight in front of focus to that behind it
 float tap_side;                   // of the square that a tap reads on a disc of radius 1
 vec2 texel;                       // size of a cell
-const int kFirstGrid = 1 + kSpirals * kMostTaps, kLastGrid = kFirstGrid + kGridTaps - 1;
 const float kMostShare = float(kShares - 1);
 // A disc of cells: reads at middle + tap * scale, from this level.
 struct Disc {
@@ -31,12 +31,12 @@ struct Disc {
 };
 // Small discs take whole cells, wider ones a spiral of taps (engine/gather/realtime_plan.h).
 Disc disc_of(vec2 middle, float radius_px) {
-    const float grid_px = 2 * lens[kLastGrid].w;
+    const float grid_px = 2 * lens[first_grid + kGridTaps - 1].w;
     const vec2 scale = 0.5 * vec2(1, at.aspect) * texel;
     if (radius_px <= grid_px) {
-        const int count = int(lens[kFirstGrid + int(4 * radius_px)].w), weights = first_of_zone + kSpirals * kMostTaps * kShares;
+        const int count = int(lens[first_grid + int(4 * radius_px)].w);
         const float per_px = kMostShare / grid_px;
-        return Disc(middle * texel, grid_px * scale, 0, kFirstGrid, kFirstGrid + count, weights, per_px, per_px * radius_px);
+        return Disc(middle * texel, grid_px * scale, 0, first_grid, first_grid + count, grid_weight, per_px, per_px * radius_px);
     }
     const float level = max(0.0, log2(0.5 * radius_px * tap_side));
     return Disc(middle * texel, radius_px * scale, level, first_tap, first_tap + taps, first_weight, kMostShare / radius_px, kMostShare);
@@ -78,7 +78,7 @@ Sum back_over(vec2 middle, float radius, float own_px, int which) {
     const float per_own = 1 / own_px;
     Sum sum = Sum(vec4(0), 0, 0, 0, 0);
     vec2 less_sum = vec2(0);
-    int first_of = disc.weights + kFarSide;
+    int first_of = disc.weights + far_side;
     for (int i = disc.tap; i < disc.end; ++i, first_of += kShares) {
         const vec2 place = disc.middle + lens[i].xy * disc.scale;
         const vec4 there = textureLod(cells, vec3(place, kBack), disc.level);
@@ -251,13 +251,16 @@ void main() {
     const vec4 head = lens[0];
     taps = int(head.x), tap_side = head.y;
     const int set = (cell.x & 1) + 2 * (cell.y & 1);
-    first_tap = 1 + kMostTaps * set;
+    first_tap = 1 + taps * set;
+    first_grid = 1 + kSpirals * taps;
+    far_side = kShares * all_taps_of(head);
     texel = 1 / vec2(8 * at.tiles);
     // Each set takes the nearest zone of another fraction, so that the mean of the four interpolates between zones.
     const vec2 fraction = (vec2(set, (set & 1) * 2 + (set >> 1)) + 0.5) / float(kSpirals);
     const ivec2 zone = ivec2(zone_place(2 * middle, head.zw) + fraction);
-    first_of_zone = kFirstZone + kOfZone * (zone.y * int(head.z) + zone.x);
-    first_weight = first_of_zone + kMostTaps * set * kShares;
+    const int first_of_zone = first_zone_of(head) + size_of_zone(head) * (zone.y * int(head.z) + zone.x);
+    first_weight = first_of_zone + kShares * taps * set;
+    grid_weight = first_of_zone + kShares * kSpirals * taps;
     const vec4 own = texelFetch(cells, ivec3(cell, kBack), 0);
     const bool has = own.z > 0.02;
     const vec3 own_near = texelFetch(cells, ivec3(cell, kNear), 0).xyz;

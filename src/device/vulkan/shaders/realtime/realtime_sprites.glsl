@@ -3,7 +3,7 @@ layout(std430, binding = 5) readonly buffer Lens { vec4 lens[]; };    // engine/
 layout(std430, binding = 6) readonly buffer Lamps { uvec4 lamps[]; };  // realtime_reach.comp: kept
 layout(std430, binding = 7) readonly buffer Boxes { ivec4 boxes[]; };  // realtime_reach.comp
 
-const int kLampSteps = 14, kFirstStep = kFirstZone + 2 * kTaps * kShares;
+const int kLampSteps = 14;
 const float kStepAt = 0.5;  // pixels: the radius of the first kernel; the next are sqrt(2) times as wide each
 
 // Lamps as a group reads them, so many at a time. More shared memory would leave fewer groups in flight.
@@ -25,9 +25,11 @@ Lamp lamp_of_cell(ivec2 cell, float least_px) {
     // The nearest kernel keeps the light of small discs; the next larger one keeps the rims of large ones sharp.
     const float place_of = 2 * log2(radius / kStepAt);
     const int step_of = clamp(int(radius < 8 ? round(place_of) : ceil(place_of - 0.1)), 0, kLampSteps - 1);
-    const vec2 from = vec2(2 * cell) + place.xy, zones = lens[0].zw, zone_at = zone_place(from, zones);
+    const vec4 head = lens[0];
+    const vec2 from = vec2(2 * cell) + place.xy, zones = head.zw, zone_at = zone_place(from, zones);
     const ivec2 zone = ivec2(min(zone_at, max(zones - 2, vec2(0))));
-    const vec4 kept = lens[kFirstStep + kOfZone * (zone.y * int(zones.x) + zone.x) + step_of + (place.z < 0 ? 0 : kLampSteps)];
+    const int of_zone = size_of_zone(head), next_zone = first_zone_of(head) + of_zone * (zone.y * int(zones.x) + zone.x + 1);
+    const vec4 kept = lens[next_zone - kOfLamps + step_of + (place.z < 0 ? 0 : kLampSteps)];
     const float cells_per_px = kept.z / radius;
     const vec2 scale = vec2(cells_per_px, cells_per_px / at.aspect);
     const vec2 gap = abs(vec2(8 * ivec2(gl_WorkGroupID.xy) + 4) - from) - 3.5;
@@ -50,12 +52,13 @@ vec4 kernel_at(int lamp, vec2 pixel) {
     const int first = group_lamps[lamp].first + low.y * side + low.x;
     const vec2 zone_share = group_lamps[lamp].zone_share;
     if (zone_share == vec2(0)) return cell_at(first, side, share);
+    const int of_zone = size_of_zone(lens[0]);
     vec4 sum = (1 - zone_share.x) * (1 - zone_share.y) * cell_at(first, side, share);
-    if (zone_share.x > 0) sum += zone_share.x * (1 - zone_share.y) * cell_at(first + kOfZone, side, share);
+    if (zone_share.x > 0) sum += zone_share.x * (1 - zone_share.y) * cell_at(first + of_zone, side, share);
     if (zone_share.y > 0) {
-        const int below = first + kOfZone * int(lens[0].z);
+        const int below = first + of_zone * int(lens[0].z);
         sum += (1 - zone_share.x) * zone_share.y * cell_at(below, side, share);
-        if (zone_share.x > 0) sum += zone_share.x * zone_share.y * cell_at(below + kOfZone, side, share);
+        if (zone_share.x > 0) sum += zone_share.x * zone_share.y * cell_at(below + of_zone, side, share);
     }
     return sum;
 }
