@@ -92,7 +92,7 @@ Look look_of(const std::string& engine) {
 TEST_F(LittleMemory, EveryEngineDrawsTheSamePicture) {
     const Shot shot = lit_shot(160, 100, 3);
     for (const auto& [engine, bytes] :
-         {std::pair("scatter", 2'000'000), {"gather", 800'000}, {"gaussian", 1'100'000}}) {
+         {std::pair("scatter", 2'000'000), {"gather", 800'000}, {"gaussian", 1'000'000}}) {
         Look look = look_of(engine);
         look.sprites.find = false;  // lights through masks have a test of their own
         expect_the_same(shot.job(engine), look, {std::size_t(bytes)}, true);

@@ -41,12 +41,13 @@ Heap::Piece Heap::allocate(Kind kind, std::size_t bytes) {
     };
     for (Block& block : blocks_)
         if (block.kind == kind && take(block)) return piece;
-    const bool is_smaller = size < block_bytes_;
     try {
         take(new_block(kind, std::max(block_bytes_, size)));
     } catch (const Failed& failed) {
-        if (!is_smaller || failed.error.code != ErrorCode::OutOfMemory) throw;
-        take(new_block(kind, size));  // what is left may do
+        if (failed.error.code != ErrorCode::OutOfMemory) throw;
+        block_bytes_ = 0;
+        release_empty_blocks();
+        take(new_block(kind, size));
     }
     return piece;
 }
@@ -151,6 +152,10 @@ void Heap::limit(std::size_t most_bytes) {
 
 void Heap::trim() {
     const std::lock_guard lock(mutex_);
+    release_empty_blocks();
+}
+
+void Heap::release_empty_blocks() {
     blocks_.remove_if([&](Block& block) {
         const bool is_empty = block.free.size() == 1 && block.free.begin()->second == block.size;
         if (is_empty) destroy(block);

@@ -27,7 +27,7 @@ class Heap {
     struct Block;
 
 public:
-    // block_bytes: the least size of a block that is taken from the device.
+    // block_bytes: the least size of a block that is taken from the device, until memory runs out.
     Heap(Opened opened, const VkPhysicalDeviceMemoryProperties& memory,
          std::size_t block_bytes = std::size_t(32) << 20);
     ~Heap();
@@ -65,7 +65,8 @@ public:
         VkDeviceSize offset_ = 0, size_ = 0;
     };
 
-    // At least `bytes`. Throws Failed (OutOfMemory).
+    // At least `bytes`. When memory runs out, empty blocks are released; from then on blocks are as large as
+    // their first pieces. Throws Failed (OutOfMemory).
     Piece allocate(Kind kind, std::size_t bytes);
     std::size_t allocated_bytes() const;  // of blocks
     // Limits the memory as if the device had no more.
@@ -82,6 +83,7 @@ private:
         std::byte* mapped = nullptr;
         std::map<VkDeviceSize, VkDeviceSize> free;  // size by offset; no two touch
     };
+    void release_empty_blocks();
     Block& new_block(Kind kind, VkDeviceSize size);
     std::size_t held_bytes() const;
     void make_buffer(Block& block);
@@ -91,7 +93,7 @@ private:
 
     const Opened opened_;
     const VkPhysicalDeviceMemoryProperties memory_;
-    const VkDeviceSize block_bytes_;
+    VkDeviceSize block_bytes_;
     mutable std::mutex mutex_;
     std::list<Block> blocks_;
     std::size_t most_bytes_ = std::numeric_limits<std::size_t>::max();

@@ -41,6 +41,22 @@ TEST(Heap, PiecesNeverOverlapAndLeaveNothingBehind) {
     EXPECT_EQ(heap.allocated_bytes(), 0u) << "holes were not joined";
 }
 
+TEST(Heap, TakesOnlyWhatIsUsedOnceMemoryRanOut) {
+    const auto context = any_context();
+    if (!context) GTEST_SKIP() << "no Vulkan device";
+    Heap& heap = context->heap();
+    heap.limit(3'000'000);
+    const auto allocate_and_release = [&](Kind kind) {
+        static_cast<void>(heap.allocate(kind, 2'000'000));
+        return heap.allocated_bytes();
+    };
+    EXPECT_EQ(allocate_and_release(Kind::ToDevice), 2'000'128u);  // a multiple of 256
+    EXPECT_EQ(allocate_and_release(Kind::OnDevice), 2'000'128u) << "the empty block was kept";
+    heap.limit(100'000'000);
+    static_cast<void>(heap.allocate(Kind::FromDevice, 1000));
+    EXPECT_EQ(heap.allocated_bytes(), 2'001'152u);
+}
+
 TEST(Heap, RefusesWhatNoDeviceHas) {
     const auto context = any_context();
     if (!context) GTEST_SKIP() << "no Vulkan device";

@@ -235,6 +235,31 @@ TEST(RealtimeDrawer, DrawsStripsAsIfTheyWereOne) {
     EXPECT_LT(largest, 2e-3);
 }
 
+// The second strip has surrounding rows on both sides, so it needs more memory than the first.
+TEST(RealtimeDrawer, DrawsWithAnyMemoryAboveTheLeast) {
+    if (!any_context()) GTEST_SKIP() << "no Vulkan device";
+    const Given given(360);
+    Picture whole(100, 360);
+    RealtimeDrawer(*any_context()).draw(given.plan(), whole);
+    std::string drawn;
+    for (const double most_mb : {0.6, 0.8, 1.0, 1.3, 1.6, 2.0}) {
+        const auto context = any_context();
+        context->heap().limit(std::size_t(most_mb * 1e6));
+        Picture out(100, 360);
+        try {
+            RealtimeDrawer(*context).draw(given.plan(), out);
+            drawn += '+';
+        } catch (const Failed& failed) {
+            EXPECT_EQ(failed.error.code, ErrorCode::OutOfMemory);
+            drawn += '-';
+            continue;
+        }
+        for (std::size_t i = 0; i < whole.size(); ++i)
+            ASSERT_NEAR(whole.pixels()[i].g, out.pixels()[i].g, 2e-3) << most_mb << " MB";
+    }
+    EXPECT_EQ(drawn, "--++++");
+}
+
 TEST(RealtimeDrawer, RefusesRowsThatNoImageHolds) {
     const auto context = any_context();
     if (!context) GTEST_SKIP() << "no Vulkan device";
