@@ -46,14 +46,15 @@ struct Band {
                 }
                 const std::size_t begin = hidden.size();
                 if (beside) hidden.push_back(*beside);
-                surfaces.fill(x, y, hidden);
+                const float outline_px = surfaces.fill(x, y, hidden);
                 hidden.resize(std::min(hidden.size(), begin + HiddenLayers::kMost));
                 own = range(begin, hidden.size());
                 if (beside) continue;  // neighbours differ from this pixel
                 // Nothing found here; neighbours closer to the silhouette may still find
                 // something.
                 if (own.count == 0) continue;
-                answers.add(x, y, coc(x, y), shared_square(std::span(hidden).subspan(begin), rule), own);
+                answers.add(x, y, coc(x, y),
+                            shared_square(std::span(hidden).subspan(begin), rule, outline_px), own);
             }
     }
 };

@@ -26,13 +26,22 @@ TEST(SharedAnswers, ArePixelsOfOneSquareAndOneSurface) {
 TEST(SharedAnswers, SquaresGrowWithTheBlurOfWhatIsHidden) {
     FillRule rule;
     const auto side = [&](float coc_px) {
-        return shared_square(std::vector<HiddenGuess>{guess(30 * coc_px), guess(coc_px)}, rule);
+        return shared_square(std::vector<HiddenGuess>{guess(30 * coc_px), guess(coc_px)}, rule, 1e9f);
     };
     const float from = rule.shared_from_px;
     EXPECT_EQ(side(0.9f * from), 1);
     EXPECT_EQ(side(1.1f * from), 2);
     EXPECT_EQ(side(-2.1f * from), 4);
     EXPECT_EQ(side(6.1f * from), kLargestSquare);
+}
+
+TEST(SharedAnswers, NoSquareCrossesAHiddenOutline) {
+    FillRule rule;
+    const std::vector<HiddenGuess> blurred{guess(10 * rule.shared_from_px)};
+    EXPECT_EQ(shared_square(blurred, rule, 7), 8);
+    EXPECT_EQ(shared_square(blurred, rule, 6.9f), 4);
+    EXPECT_EQ(shared_square(blurred, rule, 2.5f), 2);
+    EXPECT_EQ(shared_square(blurred, rule, 0), 1);
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ SurfacesBehind::SurfacesBehind(const LitPicture& picture, View<const float> coc_
       every_(std::size_t(kDirections / rule.directions)),
       every_first_(std::size_t(kDirections / rule.first_directions)) {}
 
-void SurfacesBehind::fill(int x, int y, std::vector<HiddenGuess>& hidden) const {
+float SurfacesBehind::fill(int x, int y, std::vector<HiddenGuess>& hidden) const {
     const Mixture* m = mixtures_.at(x, y);
     const float own = m && !m->shows_far ? m->near_coc_px : coc_(x, y);
     Hits hits;
@@ -75,6 +75,7 @@ void SurfacesBehind::fill(int x, int y, std::vector<HiddenGuess>& hidden) const 
         for (std::size_t k = 0; k < kDirections; k += every_)
             if (k % every_first_ != 0) look(k);
     if (reached) stack({x, y, outlines, known_.edges_around(x, y)}, hits, hidden);
+    return outline_px;
 }
 
 // Appends the surfaces that were met, nearest first. The farthest surface fills the rest. A nearer surface

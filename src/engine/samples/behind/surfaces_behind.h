@@ -21,8 +21,8 @@ public:
     bool may_hide(int x, int y) const { return near_silhouettes_.may_hide(x, y, coc_(x, y)); }
     std::optional<HiddenGuess> beside(int x, int y) const { return surface_beside(known_, coc_, x, y); }
     // Appends the surfaces behind (x, y), nearest first. If no lens ray that passes the occluder reaches a
-    // surface, nothing is appended.
-    void fill(int x, int y, std::vector<HiddenGuess>& hidden) const;
+    // surface, nothing is appended. Returns about how far the next hidden outline is, px.
+    float fill(int x, int y, std::vector<HiddenGuess>& hidden) const;
 
 private:
     void stack(const HiddenPixel& here, Hits& hits, std::vector<HiddenGuess>& hidden) const;

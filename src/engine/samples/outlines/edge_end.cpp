@@ -61,6 +61,8 @@ bool EdgeEnds::end_at(const EdgePlace& start, int side, EdgeEnd& end) const {
     end.into_y = start.upright ? into_along : into_across;
     end.bright_is_right = point.rises == (start.upright ? side < 0 : side > 0);
     end.coc_px = points_.radii()(end.at.x, end.at.y);
+    const PixelAt back = start.moved(side * (1 - n), nearest_pixel(line.at(n - 1))).pixel();
+    end.slope = (end.coc_px - points_.radii()(back.x, back.y)) / ((count - 1) * length);
     end.strength = rise(change, model.edge_change, 2 * model.edge_change);
     end.known_px = model.end_px / slope_error;
     return true;
@@ -85,7 +87,8 @@ float EdgeEnds::hidden_px(const EdgeEnd& end) const {
     for (int t = 1; t < most; ++t) {
         const PixelAt p = end.ahead(float(t));
         if (!points_.radii().rect().contains(p.x, p.y)) break;
-        if (hidden && points_.shows(p, end.coc_px)) return float(t);
+        const float coc_px = end.coc_px + float(t) * end.slope;
+        if (hidden && (points_.shows(p, coc_px) || points_.shows_farther(p, coc_px))) return float(t);
         hidden = hidden || points_.hides(p, end.coc_px);
     }
     return float(most);

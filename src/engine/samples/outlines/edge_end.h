@@ -16,6 +16,7 @@ struct EdgeEnd {
     float into_x, into_y;  // direction of the continuation, of length 1
     bool bright_is_right;  // true if its brighter side lies to the right of the continuation (y points down)
     float coc_px;          // radius of its surface
+    float slope;           // change of that radius per px of the continuation
     float strength;        // 0…1, by its contrast and the length that is visible
     float known_px;        // distance at which its direction errs by end_px
 
@@ -33,8 +34,8 @@ public:
 
     // Every end on a surface blurred by at most to_px, ordered by rows.
     std::vector<EdgeEnd> find(const Mixtures& mixtures, float to_px, Workers& workers) const;
-    // Returns the length over which the edge continues until its surface becomes visible; at most
-    // continues_px.
+    // Returns the length over which the edge continues until its surface becomes visible, or a farther one
+    // does, because its own has ended; at most continues_px.
     float hidden_px(const EdgeEnd& end) const;
 
 private:

@@ -80,6 +80,26 @@ TEST(EdgeEnds, AnEdgeIsHiddenUntilItsSurfaceShows) {
     for (const float hidden_px : covered.hidden_px) EXPECT_EQ(hidden_px, float(kContinuesPx));
 }
 
+TEST(EdgeEnds, AnEdgeEndsWhereAFartherSurfaceShows) {
+    Scene scene(kSize);
+    constexpr int kGapTop = 30, kGapBottom = 36;  // between two leaves, past the lower end of the wall
+    for (int y = kGapTop; y < kGapBottom; ++y)
+        for (int x = 0; x < kSize; ++x) scene.coc(x, y) = 6;
+    const Found found{scene};
+    ASSERT_FALSE(found.ends.empty());
+    for (const float hidden_px : found.hidden_px) EXPECT_NEAR(hidden_px, float(kGapTop - kLeafTop), 4);
+}
+
+TEST(EdgeEnds, AFloorThatRecedesStaysOneSurface) {
+    Scene scene;
+    for (int y = 0; y < kSize; ++y)
+        for (int x = 0; x < kSize; ++x)
+            if (scene.coc(x, y) == kWallPx) scene.coc(x, y) = 6 - 0.2f * float(y);
+    const Found found{scene};
+    ASSERT_FALSE(found.ends.empty());
+    for (const float hidden_px : found.hidden_px) EXPECT_NEAR(hidden_px, float(kLeafBottom - kLeafTop), 4);
+}
+
 TEST(EdgeEnds, NoneIsFoundOnSurfacesWithMoreBlurOrInPlainOnes) {
     EXPECT_TRUE(Found(Scene(), 0.5f * kWallPx).ends.empty());
     Scene plain;

@@ -1,6 +1,7 @@
 #include "engine/samples/outlines/edge_points.h"
 
 #include "base/parallel.h"
+#include "engine/samples/behind/known_surfaces.h"
 #include "engine/samples/completion_model.h"
 #include "engine/samples/nearest_pixel.h"
 
@@ -29,6 +30,10 @@ bool EdgePoints::hides(PixelAt p, float coc_px) const {
 bool EdgePoints::shows(PixelAt p, float coc_px) const {
     return radii_.rect().contains(p.x, p.y) && light_(p.x, p.y) >= 0 &&
            std::abs(radii_(p.x, p.y) - coc_px) < completion_model.step_px;
+}
+
+bool EdgePoints::shows_farther(PixelAt p, float coc_px) const {
+    return clean(p) && radii_(p.x, p.y) > coc_px && !one_surface(radii_(p.x, p.y), coc_px);
 }
 
 // Relative change of the light across a pixel, -1…1; 0 unless one surface shows there.

@@ -34,6 +34,8 @@ public:
     // True if the pixel shows something nearer than a surface at coc_px; true if it shows that surface alone.
     bool hides(PixelAt p, float coc_px) const;
     bool shows(PixelAt p, float coc_px) const;
+    // True if the pixel shows, alone, something farther than a surface at coc_px.
+    bool shows_farther(PixelAt p, float coc_px) const;
     // True if the light changes more at the place than beside it: `point` is then the centre of the change.
     bool at(const EdgePlace& place, EdgePoint& point) const;
     // Replaces `point` by the nearest one of its kind in the row of `place`, which is within_px from

@@ -60,8 +60,10 @@ HiddenOutlines::Around HiddenOutlines::around(PixelAt hidden) const {
         if (std::max(std::abs(hidden.x - o.middle.x), std::abs(hidden.y - o.middle.y)) > o.around_px)
             continue;
         const PlanePoint to = place_of(hidden, o);
-        around.near_.push_back({&o, to, o.arc.right_of(to)});
-        around.distance_px_ = std::min(around.distance_px_, std::abs(around.near_.back().right_px));
+        const float right_px = o.arc.right_of(to), along_px = o.arc.along(to);
+        const float beyond_px = std::max({0.0f, -along_px, along_px - o.length_px});
+        around.near_.push_back({&o, to, right_px});
+        around.distance_px_ = std::min(around.distance_px_, std::hypot(right_px, beyond_px));
     }
     return around;
 }

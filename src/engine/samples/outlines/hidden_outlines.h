@@ -56,7 +56,7 @@ private:
 class HiddenOutlines::Around {
 public:
     Open open(PixelAt shown, float coc_px) const;
-    // About how far the hidden point is from the course of one of them; infinite if there is none.
+    // About how far the hidden point is from the nearest of them; infinite if there is none.
     float distance_px() const { return distance_px_; }
 
 private:

@@ -129,6 +129,19 @@ TEST(HiddenOutlines, AnEdgeContinuesAloneForAHundredPixels) {
 }
 
 // If nothing lies behind the thing, or nothing in front of it, no outline is hidden.
+// A ball under a neck: beside the leaf, 4 px of its outline are visible before that of the neck. Specks of
+// hair touch the leaf, and none of them continues the ball.
+TEST(HiddenOutlines, ABallIsRoundUpToTheNeckThatStandsOnIt) {
+    const Inside ball = [](float x, float y) { return std::hypot(x - 56, y - 74) < 40; };
+    const Inside neck = rectangle(44, -1, 70, 40);
+    const Inside specks = [](float x, float y) {
+        return y >= 28 && y < 30 && (std::abs(x - 27.5f) < 0.5f || std::abs(x - 34.5f) < 0.5f);
+    };
+    const Scene scene([=](float x, float y) { return ball(x, y) || neck(x, y) || specks(x, y); },
+                      rectangle(24, 30, 40, 60));
+    EXPECT_LT(scene.error(8), 0.03);
+}
+
 TEST(HiddenOutlines, OnlyThreeSurfacesHideAnOutline) {
     const Inside none = [](float, float) { return false; };
     const HiddenOutlines two(Scene(rectangle(-1, 40, 50, 100), none).coc, one_thread());

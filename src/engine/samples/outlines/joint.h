@@ -3,6 +3,7 @@
 
 #include "engine/samples/outlines/outline_end.h"
 
+#include <cmath>
 #include <optional>
 
 namespace petzval::engine {
@@ -13,8 +14,10 @@ struct Joint {
     float length_px = 0;
     bool sure = false;  // true if both ends know their direction
 
+    // Its length, and more of it the more it turns (Kellman and Shipley: the less, the more relatable).
+    float effort() const { return length_px * (1 + std::abs(arc.curvature) * length_px); }
     bool better_than(const Joint& o) const {
-        return o.other < 0 || (sure != o.sure ? sure : length_px < o.length_px);
+        return o.other < 0 || (sure != o.sure ? sure : effort() < o.effort());
     }
 };
 

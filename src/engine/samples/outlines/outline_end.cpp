@@ -66,6 +66,21 @@ private:
     OutlineEnd& end_;
 };
 
+// True if a chain of pixel sides never turns back in columns or rows, as along every line. That around the
+// tip of a strand does.
+bool runs_one_way(std::span<const PlanePoint> points) {
+    float least_x = 1, most_x = -1, least_y = 1, most_y = -1;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const float x = points[i].x - points[i - 1].x;
+        const float y = points[i].y - points[i - 1].y;
+        least_x = std::min(least_x, x);
+        most_x = std::max(most_x, x);
+        least_y = std::min(least_y, y);
+        most_y = std::max(most_y, y);
+    }
+    return (least_x >= 0 || most_x <= 0) && (least_y >= 0 || most_y <= 0);
+}
+
 // The longest traced part on one line or arc decides the continuation.
 void find_arc(OutlineEnd& end) {
     constexpr int kLeastOfArc = 14;
@@ -80,7 +95,7 @@ void find_arc(OutlineEnd& end) {
         }
         const FittedArc line = fitted_line(points, {0, 0}, into);
         end.arc = line.arc;
-        if (line.worst_px <= completion_model.outline_off_px) return;
+        if (line.worst_px <= completion_model.outline_off_px && runs_one_way(points)) return;
     }
     end.told_by = 0;
 }

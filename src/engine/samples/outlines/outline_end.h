@@ -24,6 +24,7 @@ DepthSide depth_side(View<const float> coc_px, PixelAt pixel, float surface_px);
 constexpr int kTracedPx = 32;      // longest part of an outline that decides its continuation
 constexpr int kLeastTracedPx = 5;  // shortest part that decides without a partner
 constexpr int kLeastJoinedPx = 2;  // shortest part that joins an end pointing at it
+constexpr int kWellTracedPx = 18;  // a shorter part may turn a corner before the end
 
 struct OutlineEnd {
     PixelAt at;                                // a corner of pixels: that of (x, y) that is nearest to (0, 0)
