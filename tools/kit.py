@@ -16,8 +16,6 @@ GLSL = ("-V", "--version", "450")
 SAMPLER, PUSH = 32, 64  # WGSL: a sampler is bound so far behind its texture; the push block as uniforms
 # Programs without WGSL, with the reason.
 NO_WGSL = {"combine_11": "WebGPU has no storage texture of r11f_g11f_b10f"}
-# Parts that the kit removes from a program for WGSL: WebGPU has no storage texture of halves that is read and written.
-LEFT_OUT = {"reach": ("WITHOUT_MERGING", "without merging of lamps: where more than 256 reach a tile, each is drawn")}
 
 # For naga: it takes the result of findLSB to have the argument's sign, and WGSL knows neither isinf nor isnan.
 INSTEAD = """
@@ -76,19 +74,14 @@ def wgsl(step, made, out):
     if not shutil.which("naga"):
         return "naga is not installed (cargo install naga-cli)"
     plain, spirv = made / f"{step}.comp", made / f"{step}.apart.spv"
-    glsl, said = out / "glsl" / f"{step}.comp", "written"
-    if step in LEFT_OUT:
-        glsl, said = made / f"{step}.less.comp", LEFT_OUT[step][1]
-        compiled(step, made / f"{step}.less.spv", f"-D{LEFT_OUT[step][0]}")
-        run("spirv-cross", made / f"{step}.less.spv", *GLSL, "--output", glsl)
-    plain.write_text(separated(glsl.read_text()))
+    plain.write_text(separated((out / "glsl" / f"{step}.comp").read_text()))
     # Not -O: it shares pointers into buffers between blocks, which naga refuses.
     run("glslc", "--target-env=vulkan1.1", "-O0", "-o", spirv, plain)
     written = out / "wgsl" / f"{step}.wgsl"
     run("naga", spirv, written)
     written.write_text(uniform(written.read_text(), plain.read_text(), step))
     run("naga", written)
-    return said
+    return "written"
 
 
 def translate(step, made, out):
@@ -109,11 +102,11 @@ def translate(step, made, out):
 BOUND = {
     "measure": {0: "colour", 1: "surroundings: 2 floats a tile"},
     "split": {0: "colour", 1: "depth", 2: "cells, level 0", 3: "cells, level 1", 4: "cells, level 2", 5: "cells, level 3",
-              6: "tiles: radii, 4 floats a tile", 7: "surroundings", 8: "lamps: 4 words a tile"},
-    "reach": {0: "tiles", 1: "reach: 4 floats a tile", 2: "lamps", 3: "boxes: 4 ints a tile", 4: "kept: 4 words a tile", 5: "cells, level 0"},
+              6: "tiles: radii, 4 floats a tile", 7: "surroundings", 8: "lamps: 4 words a tile", 9: "lamps of cells: 4 words a cell"},
+    "reach": {0: "tiles", 1: "reach: 4 floats a tile", 2: "lamps", 3: "boxes: 4 ints a tile", 4: "kept: 4 words a tile", 5: "lamps of cells"},
     "gather": {0: "cells, all levels, linear", 1: "lens", 2: "reach", 3: "gathered: 3 layers of cells"},
     "combine_16": {0: "colour", 1: "cells, all levels, linear", 2: "layer over the picture, or anything", 3: "gathered, linear",
-                   4: "result, rgba16f", 5: "lens", 6: "kept", 7: "boxes", 8: "reach"},
+                   4: "result, rgba16f", 5: "lens", 6: "kept", 7: "boxes", 8: "reach", 9: "lamps of cells"},
 }
 BOUND["combine_32"] = {**BOUND["combine_16"], 4: "result, rgba32f"}
 BOUND["combine_11"] = {**BOUND["combine_16"], 4: "result, r11f_g11f_b10f: alpha is dropped"}

@@ -28,11 +28,12 @@ async function draw({ width, height, mostPx, programs, lens, colour, radii }) {
   };
   const own = TEXTURE_BINDING | STORAGE_BINDING;
   const colours = given("rgba32float", colour, 16), depths = given("r32float", radii, 4);
-  const cells = texture("rgba16float", [8 * across, 8 * down, 7], own, 4), gathered = texture("rgba16float", [8 * across, 8 * down, 3], own);
+  const cells = texture("rgba16float", [8 * across, 8 * down, 5], own, 4), gathered = texture("rgba16float", [8 * across, 8 * down, 3], own);
   const result = texture("rgba32float", [width, height], STORAGE_BINDING | COPY_SRC);
   const whole = (made) => made.createView({ dimension: "2d-array" });
   const level = (baseMipLevel) => cells.createView({ dimension: "2d-array", baseMipLevel, mipLevelCount: 1 });
-  const surroundings = buffer(8 * tiles), [radiiOfTiles, reach, lamps, boxes, kept] = [0, 1, 2, 3, 4].map(() => buffer(16 * tiles));
+  const surroundings = buffer(8 * tiles), cellLamps = buffer(1024 * tiles);
+  const [radiiOfTiles, reach, lamps, boxes, kept] = [0, 1, 2, 3, 4].map(() => buffer(16 * tiles));
   const push = new ArrayBuffer(64);
   new Int32Array(push, 0, 4).set([width, height, across, down]);
   new Float32Array(push, 16, 4).set([0, 1, mostPx, 1]);  // depth is the radius
@@ -42,11 +43,11 @@ async function draw({ width, height, mostPx, programs, lens, colour, radii }) {
   const bound = {
     measure: { 0: colours.createView(), 1: of(surroundings) },
     split: { 0: colours.createView(), 1: depths.createView(), 2: level(0), 3: level(1), 4: level(2), 5: level(3),
-             6: of(radiiOfTiles), 7: of(surroundings), 8: of(lamps) },
-    reach: { 0: of(radiiOfTiles), 1: of(reach), 2: of(lamps), 3: of(boxes), 4: of(kept) },
+             6: of(radiiOfTiles), 7: of(surroundings), 8: of(lamps), 9: of(cellLamps) },
+    reach: { 0: of(radiiOfTiles), 1: of(reach), 2: of(lamps), 3: of(boxes), 4: of(kept), 5: of(cellLamps) },
     gather: { 0: whole(cells), 1: shapes, 2: of(reach), 3: whole(gathered) },
     combine_32: { 0: colours.createView(), 1: whole(cells), 2: colours.createView(), 3: whole(gathered), 4: result.createView(),
-                  5: shapes, 6: of(kept), 7: of(boxes), 8: of(reach) },
+                  5: shapes, 6: of(kept), 7: of(boxes), 8: of(reach), 9: of(cellLamps) },
   };
   const constants = of(buffer(64, push, GPUBufferUsage.UNIFORM));
   const groups = { measure: [across, down], split: [across, down], reach: [Math.ceil(tiles / 64), 1], gather: [across, down],

@@ -112,11 +112,11 @@ constexpr VkDescriptorType kSampled = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
 constexpr std::array kBuffers{kBuffer, kBuffer, kBuffer, kBuffer, kBuffer, kBuffer, kBuffer, kBuffer};
 constexpr std::array kOfMeasure{kSampled, kBuffer};
 constexpr std::array kOfSplit{kSampled, kSampled, kStored, kStored, kStored,
-                              kStored,  kBuffer,  kBuffer, kBuffer};
-constexpr std::array kOfReach{kBuffer, kBuffer, kBuffer, kBuffer, kBuffer, kStored};
+                              kStored,  kBuffer,  kBuffer, kBuffer, kBuffer};
+constexpr std::array kOfReach{kBuffer, kBuffer, kBuffer, kBuffer, kBuffer, kBuffer};
 constexpr std::array kOfGather{kSampled, kBuffer, kBuffer, kStored};
 constexpr std::array kOfCombine{kSampled, kSampled, kSampled, kSampled, kStored,
-                                kBuffer,  kBuffer,  kBuffer,  kBuffer};
+                                kBuffer,  kBuffer,  kBuffer,  kBuffer,  kBuffer};
 
 std::span<const VkDescriptorType> buffers(std::size_t count) { return std::span(kBuffers).first(count); }
 

@@ -33,7 +33,7 @@ std::vector<ImageKind> kinds_of(const RealtimeSettings& settings) {
     kind.height = (settings.height + 2 * kGroup - 1) / (2 * kGroup) * kGroup;
     kind.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
     kind.is_array = true;
-    kind.layers = 7;
+    kind.layers = 5;
     kind.levels = kLevels;
     std::vector<ImageKind> kinds{kind};
     kind.layers = 3;
@@ -127,6 +127,7 @@ void RealtimePass::make() {
     surroundings_ = heap_.allocate(Kind::OnDevice, tiles * 2 * sizeof(float));
     tiles_ = heap_.allocate(Kind::OnDevice, tiles * 4 * sizeof(float));
     lamps_ = heap_.allocate(Kind::OnDevice, tiles * 4 * sizeof(std::uint32_t));
+    cell_lamps_ = heap_.allocate(Kind::OnDevice, tiles * kGroup * kGroup * 4 * sizeof(std::uint32_t));
     reach_ = heap_.allocate(Kind::OnDevice, tiles * 4 * sizeof(float));
     boxes_ = heap_.allocate(Kind::OnDevice, tiles * 4 * sizeof(std::int32_t));
     kept_ = heap_.allocate(Kind::OnDevice, tiles * 4 * sizeof(std::uint32_t));
@@ -239,12 +240,13 @@ void RealtimePass::write_own(const Slot& slot) const {
     write_buffer(slot.sets[kSplit], 6, tiles_);
     write_buffer(slot.sets[kSplit], 7, surroundings_);
     write_buffer(slot.sets[kSplit], 8, lamps_);
+    write_buffer(slot.sets[kSplit], 9, cell_lamps_);
     write_buffer(slot.sets[kReach], 0, tiles_);
     write_buffer(slot.sets[kReach], 1, reach_);
     write_buffer(slot.sets[kReach], 2, lamps_);
     write_buffer(slot.sets[kReach], 3, boxes_);
     write_buffer(slot.sets[kReach], 4, kept_);
-    write_image(slot.sets[kReach], 5, kStored, {VK_NULL_HANDLE, cells_.level(0), kLayout});
+    write_buffer(slot.sets[kReach], 5, cell_lamps_);
     write_image(slot.sets[kGather], 0, kSampled, {linear_, cells_.view(), kLayout});
     write_buffer(slot.sets[kGather], 2, reach_);
     write_image(slot.sets[kGather], 3, kStored, {VK_NULL_HANDLE, gathered_.view(), kLayout});
@@ -253,6 +255,7 @@ void RealtimePass::write_own(const Slot& slot) const {
     write_buffer(slot.sets[kCombine], 6, kept_);
     write_buffer(slot.sets[kCombine], 7, boxes_);
     write_buffer(slot.sets[kCombine], 8, reach_);
+    write_buffer(slot.sets[kCombine], 9, cell_lamps_);
 }
 
 void RealtimePass::write_given(const Slot& slot, const RealtimeImages& images) const {

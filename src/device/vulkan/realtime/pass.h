@@ -178,7 +178,7 @@ private:
     const RealtimeSettings settings_;
     Heap heap_;
     DeviceImage cells_, gathered_, layer_;
-    Piece surroundings_, tiles_, lamps_, reach_, boxes_, kept_;
+    Piece surroundings_, tiles_, lamps_, cell_lamps_, reach_, boxes_, kept_;
     VkSampler nearest_ = VK_NULL_HANDLE, linear_ = VK_NULL_HANDLE;
     std::shared_ptr<const RealtimePrograms> programs_;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;

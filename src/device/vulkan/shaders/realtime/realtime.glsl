@@ -21,10 +21,29 @@ vec2 zone_place(vec2 pixel, vec2 zones) { return clamp(at.zone_scale * pixel + a
 const float kMostLight = 60000;  // that cells hold
 const int kTile = 16;            // pixels
 const int kLayers = 4, kBackLight = 0, kBack = 1, kNearLight = 2, kNear = 3;  // of cells
-// Stored for the finest level only: a lamp's light without a factor; its place from the cell's corner, signed
-// radius, that factor; signed radii of the cell's four pixels.
-const int kLampLight = 4, kLampPlace = 5, kRadii = 6;
+// Stored for the finest level only: signed radii of the cell's four pixels.
+const int kRadii = 4;
 const int kGatheredBack = 0, kGatheredNear = 1, kGatheredArea = 2;            // of what is gathered
+
+// The lamp of a cell, kept in halves in a buffer: its light is a factor, a power of two, times `light`.
+struct CellLamp {
+    vec3 light;
+    float factor;
+    vec2 place;  // from the cell's corner, pixels
+    float radius;  // signed
+};
+// Index of a cell's lamp in the buffer: the cells of a tile follow each other.
+int lamp_at(ivec2 cell) {
+    const ivec2 tile = cell >> 3, inner = cell & 7;
+    return 64 * (tile.y * at.tiles.x + tile.x) + 8 * inner.y + inner.x;
+}
+uvec4 packed_lamp(CellLamp lamp) {
+    return uvec4(packHalf2x16(lamp.light.rg), packHalf2x16(vec2(lamp.light.b, lamp.factor)), packHalf2x16(lamp.place), floatBitsToUint(lamp.radius));
+}
+CellLamp unpacked_lamp(uvec4 kept) {
+    const vec2 rest = unpackHalf2x16(kept.y);
+    return CellLamp(vec3(unpackHalf2x16(kept.x), rest.x), rest.y, unpackHalf2x16(kept.z), uintBitsToFloat(kept.w));
+}
 
 vec4 light_of(vec4 colour) { return clamp(colour, vec4(0), vec4(kMostLight)); }
 // The colour if it is finite: a host's picture may hold infinity, which would spread.

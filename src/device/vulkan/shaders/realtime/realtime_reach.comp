@@ -11,14 +11,11 @@ layout(std430, binding = 1) writeonly buffer Reach { vec4 reach[]; };  // the sa
 layout(std430, binding = 2) readonly buffer Lamps { uvec4 lamps[]; };
 layout(std430, binding = 3) writeonly buffer Boxes { ivec4 boxes[]; };  // first and last column and row; empty: last < first
 layout(std430, binding = 4) writeonly buffer Kept { uvec4 kept[]; };    // the lamps that are left, as in `lamps`
-#ifndef WITHOUT_MERGING  // in WGSL, which has no image of halves that is read and written
-layout(binding = 5, rgba16f) uniform image2DArray cells;  // the finest
-#endif
+layout(std430, binding = 5) buffer CellLamps { uvec4 cell_lamps[]; };
 #include "realtime.glsl"
 
 const uint kMostLamps = 256;  // that reach a tile before its own are merged
 
-#ifndef WITHOUT_MERGING
 // Marks the squares of `side` x `side` cells that hold any lamp, at the first cell of each. A mask has 32 cells in a word,
 // as four rows of eight.
 uvec2 squares_of(uvec2 mask, int side) {
@@ -37,10 +34,9 @@ void put(Merged lamp, ivec2 tile, int cell, inout uvec2 left) {
     if (lamp.bright == 0) return;
     // The light is divided by a power of two if halves would not hold it.
     const float most = max(lamp.light.r, max(lamp.light.g, lamp.light.b)), factor = exp2(ceil(max(0.0, log2(most / (4 * kMostLight)))));
-    const ivec3 at_cell = ivec3(8 * tile + ivec2(cell % 8, cell / 8), kLampLight);
+    const ivec2 own = ivec2(cell % 8, cell / 8);
     const vec3 place = lamp.place / lamp.bright;
-    imageStore(cells, at_cell, vec4(lamp.light / (4 * factor), 0));
-    imageStore(cells, ivec3(at_cell.xy, kLampPlace), vec4(place.xy - 2 * vec2(at_cell.xy - 8 * tile), place.z, 4 * factor));
+    cell_lamps[lamp_at(8 * tile + own)] = packed_lamp(CellLamp(lamp.light / (4 * factor), 4 * factor, place.xy - 2 * vec2(own), place.z));
     left[cell / 32] |= 1u << (cell % 32);
 }
 uvec2 merge(ivec2 tile, uvec2 mask, int side) {
@@ -53,11 +49,11 @@ uvec2 merge(ivec2 tile, uvec2 mask, int side) {
             const int cell = square + i / side * 8 + i % side;
             if ((mask[cell / 32] >> (cell % 32) & 1u) == 0u) continue;
             const ivec2 own = ivec2(cell % 8, cell / 8);
-            const vec4 lamp = imageLoad(cells, ivec3(8 * tile + own, kLampPlace));
-            const vec3 light = lamp.w * imageLoad(cells, ivec3(8 * tile + own, kLampLight)).rgb;
+            const CellLamp lamp = unpacked_lamp(cell_lamps[lamp_at(8 * tile + own)]);
+            const vec3 light = lamp.factor * lamp.light;
             const float bright = brightness(vec4(light, 0));
-            const vec3 place = bright * vec3(2 * vec2(own) + lamp.xy, lamp.z);
-            if (lamp.z < 0) before.light += light, before.place += place, before.bright += bright;
+            const vec3 place = bright * vec3(2 * vec2(own) + lamp.place, lamp.radius);
+            if (lamp.radius < 0) before.light += light, before.place += place, before.bright += bright;
             else behind.light += light, behind.place += place, behind.bright += bright;
         }
         put(behind, tile, square, left), put(before, tile, square + 1, left);
@@ -77,9 +73,6 @@ uvec2 thinned(ivec2 tile, uvec2 mask, uint all) {
     }
     return merge(tile, mask, side);
 }
-#else
-uvec2 thinned(ivec2 tile, uvec2 mask, uint all) { return mask; }
-#endif
 
 void main() {
     const int own = int(gl_GlobalInvocationID.x);

@@ -13,6 +13,7 @@ layout(binding = 4, rgba16f) writeonly uniform image2DArray cells_4;
 layout(binding = 5, rgba16f) writeonly uniform image2DArray cells_8;
 layout(std430, binding = 6) writeonly buffer Tiles { vec4 tiles[]; };  // realtime_reach.comp
 layout(std430, binding = 8) writeonly buffer Lamps { uvec4 lamps[]; };  // by tile: which cells have one, the largest radius
+layout(std430, binding = 9) writeonly buffer CellLamps { uvec4 cell_lamps[]; };  // realtime.glsl: lamp_at
 #include "realtime.glsl"
 #include "realtime_lamps.glsl"
 
@@ -49,8 +50,7 @@ void keep_lamp(ivec2 cell, vec4 light, vec2 place) {
     const float bright = brightness(light);
     if (bright > 0) {
         const float found = lamp_radius(cell), radius = found < 0 ? min(found, -0.5) : max(found, 0.5);
-        imageStore(cells_1, ivec3(cell, kLampLight), 0.25 * light);
-        imageStore(cells_1, ivec3(cell, kLampPlace), vec4(place / bright, radius, 4));
+        cell_lamps[lamp_at(cell)] = packed_lamp(CellLamp(0.25 * light.rgb, 4, place / bright, radius));
         atomicOr(lamp_cells[own / 32u], 1u << (own % 32u));
         atomicMax(lamp_px, floatBitsToUint(abs(radius)));
     }

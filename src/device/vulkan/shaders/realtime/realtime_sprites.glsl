@@ -1,7 +1,8 @@
 // Lamps as sprites: each with the lens's own kernel, at its own place and radius.
 layout(std430, binding = 5) readonly buffer Lens { vec4 lens[]; };    // engine/gather/realtime_plan.h
-layout(std430, binding = 6) readonly buffer Lamps { uvec4 lamps[]; };  // realtime_reach.comp: kept
+layout(std430, binding = 6) readonly buffer Kept { uvec4 lamps[]; };  // realtime_reach.comp
 layout(std430, binding = 7) readonly buffer Boxes { ivec4 boxes[]; };  // realtime_reach.comp
+layout(std430, binding = 9) readonly buffer CellLamps { uvec4 cell_lamps[]; };
 
 const int kLampSteps = 14;
 const float kStepAt = 0.5;  // pixels: the radius of the first kernel; the next are sqrt(2) times as wide each
@@ -20,22 +21,22 @@ struct Lamp {
 shared Lamp group_lamps[kLampsAtOnce];
 
 Lamp lamp_of_cell(ivec2 cell, float least_px) {
-    const vec4 place = texelFetch(cells, ivec3(cell, kLampPlace), 0);
-    const float radius = max(abs(place.z), kStepAt);
+    const CellLamp lamp = unpacked_lamp(cell_lamps[lamp_at(cell)]);
+    const float radius = max(abs(lamp.radius), kStepAt);
     // The nearest kernel keeps the light of small discs; the next larger one keeps the rims of large ones sharp.
     const float place_of = 2 * log2(radius / kStepAt);
     const int step_of = clamp(int(radius < 8 ? round(place_of) : ceil(place_of - 0.1)), 0, kLampSteps - 1);
     const vec4 head = lens[0];
-    const vec2 from = vec2(2 * cell) + place.xy, zones = head.zw, zone_at = zone_place(from, zones);
+    const vec2 from = vec2(2 * cell) + lamp.place, zones = head.zw, zone_at = zone_place(from, zones);
     const ivec2 zone = ivec2(min(zone_at, max(zones - 2, vec2(0))));
     const int of_zone = size_of_zone(head), next_zone = first_zone_of(head) + of_zone * (zone.y * int(zones.x) + zone.x + 1);
-    const vec4 kept = lens[next_zone - kOfLamps + step_of + (place.z < 0 ? 0 : kLampSteps)];
+    const vec4 kept = lens[next_zone - kOfLamps + step_of + (lamp.radius < 0 ? 0 : kLampSteps)];
     const float cells_per_px = kept.z / radius;
     const vec2 scale = vec2(cells_per_px, cells_per_px / at.aspect);
     const vec2 gap = abs(vec2(8 * ivec2(gl_WorkGroupID.xy) + 4) - from) - 3.5;
     const bool reaches = max(gap.x, gap.y / at.aspect) * cells_per_px <= kept.y;
-    const vec3 light = place.w * cells_per_px * cells_per_px / at.aspect * texelFetch(cells, ivec3(cell, kLampLight), 0).rgb;
-    return Lamp(from, place.z, least_px, vec4(scale, kept.y - from * scale), light, int(kept.x), reaches ? 2 * int(kept.y) + 1 : 0, zone_at - vec2(zone));
+    const vec3 light = lamp.factor * cells_per_px * cells_per_px / at.aspect * lamp.light;
+    return Lamp(from, lamp.radius, least_px, vec4(scale, kept.y - from * scale), light, int(kept.x), reaches ? 2 * int(kept.y) + 1 : 0, zone_at - vec2(zone));
 }
 
 vec4 cell_at(int first, int side, vec2 share) {
