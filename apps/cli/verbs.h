@@ -22,6 +22,7 @@ void add_help(Verb& program, Action& chosen);  // last: it tells of the others
 void add_lens(Verb& program, Action& chosen);
 void add_lens_pictures(Verb& lens, Action& chosen);  // psf and table
 void add_lens_atlas(Verb& lens, Action& chosen);
+void add_lens_buffer(Verb& lens, Action& chosen);
 void add_lens_report(Verb& lens, Action& chosen);
 void add_lens_check(Verb& lens, Action& chosen);
 

@@ -234,4 +234,23 @@ PETZVAL_API Status check(const LensAtlasFiles& files);
 PETZVAL_API Result<LensAtlasMade> make_lens_atlas(LensAtlasFiles files,
                                                   const std::function<Status()>& may_write = {});
 
+// The lens buffer of the shader kit as a file, as petzval lens buffer writes it.
+struct LensBufferFile {
+    Look look = {};                     // its lens, with the images of apertures that it names; its quality
+    CameraChoice camera = {};           // numbers that are given replace the lens's own
+    int width_px = 1920;                // of the frame that the programs draw
+    std::optional<int> height_px = {};  // empty: 9/16 of the width
+    std::string output = {};
+    bool overwrite = true;
+    std::size_t max_memory_bytes = 0;  // 0: no limit
+};
+struct LensBufferMade {
+    std::string lens;    // the lens that was used, in words
+    Camera camera;       // the lens was mounted on it
+    std::string record;  // that of `petzval lens buffer --json`
+};
+// Errors: those of read_lens_images(), Lens::open(), mounted_on() and realtime_lens_buffer(); OutOfMemory;
+// OutputFailed.
+PETZVAL_API Result<LensBufferMade> make_lens_buffer(LensBufferFile file);
+
 }  // namespace petzval

@@ -2,9 +2,12 @@
 // session for one frame.
 #pragma once
 
+#include "petzval/camera.h"
 #include "petzval/defocus.h"
 #include "petzval/develop.h"
+#include "petzval/engine_options.h"
 #include "petzval/export.h"
+#include "petzval/lens.h"
 #include "petzval/look.h"
 #include "petzval/rendered.h"
 #include "petzval/result.h"
@@ -15,6 +18,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace petzval {
 
@@ -134,5 +138,17 @@ private:
     struct Contents;
     std::unique_ptr<Contents> contents_;
 };
+
+// The content of lens.bin for the programs of the shader kit (docs/explain/shader-kit.md).
+struct RealtimeLensBuffer {
+    std::vector<float> values;
+    int taps = 0;               // of a disc
+    int columns = 1, rows = 1;  // places of the frame that have kernels of their own
+};
+// The real-time pass's lens on a frame of this size. It takes 1.4, 1.6 or 2.3 MB for each place (draft,
+// standard, final). Errors: those of the lens on that camera.
+PETZVAL_API Result<RealtimeLensBuffer> realtime_lens_buffer(const Lens& lens, const Camera& camera,
+                                                            int width_px, int height_px,
+                                                            Quality quality = Quality::Standard);
 
 }  // namespace petzval

@@ -1,4 +1,4 @@
-// petzval lens psf, table, volume and atlas: from a lens and a camera to files and their record.
+// petzval lens psf, table, volume, atlas and buffer: from a lens and a camera to files and their record.
 #include "petzval/display_files.h"
 #include "petzval/lens_json.h"
 #include "petzval/lens_report.h"
@@ -6,6 +6,7 @@
 #include "petzval/output.h"
 #include "petzval/reports/stopwatch.h"
 #include "petzval/reports/words.h"
+#include "petzval/session.h"
 
 #include "records/record_json.h"
 
@@ -215,6 +216,28 @@ Result<LensAtlasMade> make_lens_atlas(LensAtlasFiles files, const std::function<
     record["output"] = outputs[0], record["outputs"] = outputs;
     record["radii_px"] = atlas->radii_px;
     return LensAtlasMade{atlas->lens, on->mount.camera, finished(std::move(record), watch)};
+}
+
+Result<LensBufferMade> make_lens_buffer(LensBufferFile file) {
+    constexpr std::size_t kMostBytes = std::size_t(220) << 20;  // measured: 45 places, final quality
+    const Stopwatch watch;
+    const auto on = mounted(file);
+    if (!on) return on.error();
+    if (const Status fits = fits_memory("a lens buffer", kMostBytes, file.max_memory_bytes); !fits)
+        return fits.error();
+    const LensMount& mount = on->mount;
+    const auto buffer =
+        realtime_lens_buffer(on->lens, mount.camera, mount.width_px, mount.height_px, file.look.quality);
+    if (!buffer) return buffer.error();
+    const std::string bytes(reinterpret_cast<const char*>(buffer->values.data()),
+                            buffer->values.size() * sizeof(float));
+    if (const Status done = write_text(file.output, bytes, file.overwrite); !done) return done.error();
+    Json record = record_of("lens buffer", file.look, on->lens.name(), mount);
+    record["output"] = file.output;
+    record["taps"] = buffer->taps;
+    record["columns"] = buffer->columns;
+    record["rows"] = buffer->rows;
+    return LensBufferMade{on->lens.name(), mount.camera, finished(std::move(record), watch)};
 }
 
 }  // namespace petzval

@@ -181,6 +181,22 @@ TEST(LensAtlasFiles, OfRingsAreOfRoundPupilsAndOneZoneIsTheMiddle) {
     EXPECT_FALSE(std::filesystem::exists(files.folder));
 }
 
+TEST(LensBufferFile, HasAVectorForEachNumberOfThePage) {
+    const test::TemporaryFolder folder;
+    LensBufferFile file;
+    file.look.lens.name = "ideal";
+    file.output = folder / "lens.bin";
+    const auto made = make_lens_buffer(file);
+    ASSERT_TRUE(made) << made.error().message;
+    EXPECT_NE(made->record.find("\"verb\":\"lens buffer\""), std::string::npos) << made->record;
+    EXPECT_NE(made->record.find("\"taps\":48"), std::string::npos);
+    EXPECT_EQ(std::filesystem::file_size(file.output), 16u * (1 + 264 + 101592));
+    file.overwrite = false;
+    EXPECT_EQ(make_lens_buffer(file).error().code, ErrorCode::OutputFailed);
+    file.overwrite = true, file.max_memory_bytes = 1 << 10;
+    EXPECT_EQ(make_lens_buffer(file).error().code, ErrorCode::OutOfMemory);
+}
+
 TEST(LensReportFiles, OfOneLensIsAPageAndOfSeveralAFolder) {
     const test::TemporaryFolder folder;
     LensReportFiles files{.lenses = {"ideal"}};

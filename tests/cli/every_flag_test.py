@@ -25,6 +25,7 @@ COMMANDS = {
     "lens table": "doublet -o {o}/out.exr --width 480 --columns 5 --defocus 9",
     "lens volume": "doublet -o {o}/out.exr --width 480 --slices 2 --side 17 --defocus 9",
     "lens atlas": "doublet -o {o} --width 480 --zones 2 --defocus 9",
+    "lens buffer": "ideal -o {o}/out.bin --width 480 --quality draft",
     "lens report": "ideal -o {o}/out.html",
 }
 # Flags that say how a verb works and never what it makes; those that name the default.
@@ -62,6 +63,7 @@ VALUES = {
 VALUES_OF = {
     "scene make": {"--layers": "{o}/hidden.exr"}, "compare": {"--exposure": "2", "-o": "{o}/map.png"}, "scene points": {"--width": "300"},
     "lens table": {"--width": "960"}, "lens volume": {"--width": "960"}, "lens psf": {"--width": "960"},
+    "lens buffer": {"-o": "{o}/else.bin", "--width": "960", "--quality": "standard"},
     "lens report": {"-o": "{o}/else.html"}, "lens atlas": {"-o": "{o}/else", "--width": "960"}, "focus-track": {"-o": "{o}/else.csv"}, "develop": {"-o": "{o}/else.png"},
     "sheet": {"-o": "{o}/else.png"}, "scene points": {"-o": "{o}/else.csv", "--width": "300", "--height": "300"},
 }
@@ -91,6 +93,7 @@ BESIDE_OF = {
     "lens atlas": {"--focus": "--lens tessar", "--zones": "--cats-eye 0.8", "--height": "--barrel 9,20", **{flag: "--zones 1" for flag in (
         "--blades", "--squeeze", "--barn-doors", "--aperture-image", "--kernel-image", "--dust", "--scratches")},
                    **{flag: "--zones 1 --blades 5" for flag in ("--blade-rotation", "--blade-curvature", "--iris-open")}, "--texture-seed": "--zones 1 --dust 1"},
+    "lens buffer": {"--focus": "--lens tessar", "--width": "--lens uncorrected", "--height": "--barrel 9,20"},
     "scene make": {"--samples": "--truth {o}/truth.exr"},
 }
 

@@ -93,6 +93,7 @@ void add_lens(Verb& program, Action& chosen) {
     add_lens_check(lens, chosen);
     add_lens_pictures(lens, chosen);
     add_lens_atlas(lens, chosen);
+    add_lens_buffer(lens, chosen);
     add_lens_report(lens, chosen);
     when_typed(lens, [&lens] { require_verb(lens); });
 }

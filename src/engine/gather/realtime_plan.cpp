@@ -222,4 +222,11 @@ RealtimeLens realtime_lens(const kernel::LensModel& lens, const RealtimeZones& z
     return made;
 }
 
+RealtimeLens realtime_lens_of_host(const kernel::LensModel& lens, double width, double height,
+                                   Quality quality) {
+    constexpr double kRadiusPx = 45;
+    return realtime_lens(lens, realtime_zones(lens, width, height), kRadiusPx, kRadiusPx,
+                         realtime_taps(quality));
+}
+
 }  // namespace petzval::engine

@@ -81,6 +81,11 @@ int realtime_taps(Quality quality);
 RealtimeLens realtime_lens(const kernel::LensModel& lens, const RealtimeZones& zones, double near_radius_px,
                            double far_radius_px, int taps);
 
+// The lens as hosts draw it on a frame of this size: its shapes are those of discs of 45 px, the largest that
+// lamps have.
+RealtimeLens realtime_lens_of_host(const kernel::LensModel& lens, double width, double height,
+                                   Quality quality);
+
 struct RealtimePlan {
     View<const Rgba> colour;
     View<const float> coc_px;

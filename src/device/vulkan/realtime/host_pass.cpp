@@ -9,18 +9,11 @@
 namespace petzval::device::vulkan {
 namespace {
 
-std::shared_ptr<const engine::RealtimeLens> shapes_of(const kernel::LensModel& lens, std::uint32_t width,
-                                                      std::uint32_t height, Quality quality) {
-    constexpr double kRadiusPx = 45;  // shapes are those of discs this large: the largest that lamps have
-    return std::make_shared<const engine::RealtimeLens>(
-        engine::realtime_lens(lens, engine::realtime_zones(lens, width, height), kRadiusPx, kRadiusPx,
-                              engine::realtime_taps(quality)));
-}
-
 Status loaded(RealtimePass& pass, const RealtimeSettings& settings, const kernel::LensModel& lens,
               Quality quality) {
     try {
-        pass.set_lens(shapes_of(lens, settings.width, settings.height, quality));
+        pass.set_lens(std::make_shared<const engine::RealtimeLens>(
+            engine::realtime_lens_of_host(lens, settings.width, settings.height, quality)));
     } catch (const Failed& failed) {
         return failed.error;
     }
