@@ -224,8 +224,9 @@ def web_test(*words):
 
 
 def kit(*words):
-    """[FOLDER]: the real-time pass's programs as GLSL, SPIR-V, HLSL, MSL and WGSL, in build/kit, each compiled"""
-    run(sys.executable, "tools/kit.py", *words)
+    """[FOLDER]: the real-time pass's programs as GLSL, SPIR-V, HLSL, MSL and WGSL, each compiled, and a lens, in build/kit"""
+    make("release", "petzval_cli")
+    run(sys.executable, "tools/kit.py", *words, "--petzval", program())
 
 
 def farm_test(*words):

@@ -1,7 +1,9 @@
-"""Builds build/kit: the programs of the real-time pass as GLSL, SPIR-V, HLSL, MSL and WGSL, with a table of their bindings.
+"""Builds build/kit: the programs of the real-time pass as GLSL, SPIR-V, HLSL, MSL and WGSL, with tables of what they bind.
 
-Usage: kit.py [FOLDER]. Each program is compiled where this machine has a compiler; a program that is refused ends the run.
+Usage: kit.py [FOLDER] [--petzval PROGRAM]. Each program is compiled where this machine has a compiler; a program that is
+refused ends the run. PROGRAM writes lens.bin.
 """
+import argparse
 import json
 import pathlib
 import re
@@ -11,11 +13,28 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SHADERS = ROOT / "src/device/vulkan/shaders"
-STEPS = ("measure", "split", "reach", "gather", "combine_16", "combine_32", "combine_11")
+PAGE = ROOT / "docs/explain/shader-kit.md"
 GLSL = ("-V", "--version", "450")
 SAMPLER, PUSH = 32, 64  # WGSL: a sampler is bound so far behind its texture; the push block as uniforms
+MSL_PUSH = 30           # the last buffer that Metal has
 # Programs without WGSL, with the reason.
 NO_WGSL = {"combine_11": "WebGPU has no storage texture of r11f_g11f_b10f"}
+
+# What is bound where, with the names of the page; a binding that the programs have and this table lacks ends the run. A
+# number is a level of the image.
+COMBINE = {0: "colour", 1: "cells", 2: "layer", 3: "gathered", 4: "result", 5: "lens", 6: "kept", 7: "boxes", 8: "reach", 9: "cell_lamps"}
+BOUND = {
+    "measure": {0: "colour", 1: "surroundings"},
+    "split": {0: "colour", 1: "depth", 2: "cells 0", 3: "cells 1", 4: "cells 2", 5: "cells 3", 6: "tiles", 7: "surroundings",
+              8: "lamps", 9: "cell_lamps"},
+    "reach": {0: "tiles", 1: "reach", 2: "lamps", 3: "boxes", 4: "kept", 5: "cell_lamps"},
+    "gather": {0: "cells", 1: "lens", 2: "reach", 3: "gathered"},
+    "combine_16": COMBINE, "combine_32": COMBINE, "combine_11": COMBINE,
+}
+# Groups along x and y, as the page has them.
+GROUPS = {"measure": "tiles", "split": "tiles", "reach": "tiles / 64", "gather": "tiles", "combine_16": "pixels / 8",
+          "combine_32": "pixels / 8", "combine_11": "pixels / 8"}
+KINDS = {"textures": "sampled", "images": "storage image", "ssbos": "buffer"}
 
 # For naga: it takes the result of findLSB to have the argument's sign, and WGSL knows neither isinf nor isnan.
 INSTEAD = """
@@ -35,6 +54,18 @@ def run(*command):
 def compiled(step, spirv, *flags):
     run("glslc", "--target-env=vulkan1.2", "-O", "-Werror", *flags, "-I", ROOT / "src", "-o", spirv,
         SHADERS / f"realtime/realtime_{step}.comp")
+
+
+def buffer_name(block):
+    return re.sub(r"(?<!^)([A-Z])", r"_\1", block).lower() + "_buffer"
+
+
+def name_buffers(texts):
+    """Gives buffers the names of their blocks in all texts of a program. spirv-cross numbers them, because the sources name
+    only the members."""
+    for block, number in re.findall(r"buffer (\w+)\s*\{[^}]*\} (_\d+);", texts["glsl"].read_text()):
+        for text in texts.values():
+            text.write_text(re.sub(rf"\b{number}\b", buffer_name(block), text.read_text()))
 
 
 def separated(glsl):
@@ -86,73 +117,90 @@ def wgsl(step, made, out):
 
 def translate(step, made, out):
     """All languages of a program; returns its reflection and what became of the WGSL."""
-    spirv = out / "spirv" / f"{step}.spv"
+    spirv, named = out / "spirv" / f"{step}.spv", made / f"{step}.spv"
     compiled(step, spirv)
     run("spirv-val", "--target-env", "vulkan1.2", spirv)
+    compiled(step, named, "-g")
+    texts = {}
     for folder, suffix, flags in (("glsl", "comp", GLSL), ("hlsl", "hlsl", ("--hlsl", "--shader-model", "60")),
-                                  ("msl", "metal", ("--msl", "--msl-version", "20200"))):
-        run("spirv-cross", spirv, *flags, "--output", out / folder / f"{step}.{suffix}")
-    run("glslangValidator", "--target-env", "vulkan1.1", "-V", "-o", made / "checked.spv", out / "glsl" / f"{step}.comp")
-    run("glslangValidator", "-D", "-V", "-S", "comp", "-e", "main", "-o", made / "checked.spv", out / "hlsl" / f"{step}.hlsl")
-    return json.loads(run("spirv-cross", spirv, "--reflect")), wgsl(step, made, out)
+                                  ("msl", "metal", ("--msl", "--msl-version", "20200", "--msl-decoration-binding"))):
+        texts[folder] = out / folder / f"{step}.{suffix}"
+        run("spirv-cross", named, *flags, "--output", texts[folder])
+    name_buffers(texts)
+    # spirv-cross leaves these two open: the first has no register, the second the place of another buffer.
+    for folder, found, instead in (("hlsl", r"\bcbuffer Push\b", "cbuffer Push : register(b0)"),
+                                   ("msl", r"constant Push& at \[\[buffer\(0\)\]\]", f"constant Push& at [[buffer({MSL_PUSH})]]")):
+        written, count = re.subn(found, instead, texts[folder].read_text())
+        if count != 1:
+            sys.exit(f"kit: {texts[folder]} has no push block where it is expected")
+        # Space 0 is meant anyway, and compilers before shader model 5.1 know none.
+        texts[folder].write_text(written.replace(", space0)", ")"))
+    run("glslangValidator", "--target-env", "vulkan1.1", "-V", "-o", made / "checked.spv", texts["glsl"])
+    run("glslangValidator", "-D", "-V", "-S", "comp", "-e", "main", "-o", made / "checked.spv", texts["hlsl"])
+    return json.loads(run("spirv-cross", named, "--reflect")), wgsl(step, made, out)
 
 
-# What is bound where; a binding that the programs have and this table lacks ends the run. Sizes: tiles are of 16 x 16 pixels, cells
-# of 2 x 2.
-BOUND = {
-    "measure": {0: "colour", 1: "surroundings: 2 floats a tile"},
-    "split": {0: "colour", 1: "depth", 2: "cells, level 0", 3: "cells, level 1", 4: "cells, level 2", 5: "cells, level 3",
-              6: "tiles: radii, 4 floats a tile", 7: "surroundings", 8: "lamps: 4 words a tile", 9: "lamps of cells: 4 words a cell"},
-    "reach": {0: "tiles", 1: "reach: 4 floats a tile", 2: "lamps", 3: "boxes: 4 ints a tile", 4: "kept: 4 words a tile", 5: "lamps of cells"},
-    "gather": {0: "cells, all levels, linear", 1: "lens", 2: "reach", 3: "gathered: 3 layers of cells"},
-    "combine_16": {0: "colour", 1: "cells, all levels, linear", 2: "layer over the picture, or anything", 3: "gathered, linear",
-                   4: "result, rgba16f", 5: "lens", 6: "kept", 7: "boxes", 8: "reach", 9: "lamps of cells"},
-}
-BOUND["combine_32"] = {**BOUND["combine_16"], 4: "result, rgba32f"}
-BOUND["combine_11"] = {**BOUND["combine_16"], 4: "result, r11f_g11f_b10f: alpha is dropped"}
-KINDS = {"textures": "sampled", "images": "storage image", "ssbos": "buffer"}
-
-
-def table(step, reflection):
+def bindings(step, reflection):
+    """What a program binds, in the order of its bindings."""
     rows = []
     for kind, said in KINDS.items():
         for one in reflection.get(kind, []):
             binding = one["binding"]
             if binding not in BOUND[step]:
                 sys.exit(f"kit: binding {binding} of {step} is new: say in tools/kit.py what is bound there")
-            rows.append((binding, f"{said}{' ' + one['format'] if 'format' in one else ''}", BOUND[step][binding]))
-    lines = "".join(f"| {binding} | {kind} | {what} |\n" for binding, kind, what in sorted(rows))
-    return f"### {step}\n\n| binding | kind | what |\n|---|---|---|\n{lines}\n"
+            name = buffer_name(one["name"]) if kind == "ssbos" else one["name"]
+            what, _, level = BOUND[step][binding].partition(" ")
+            access = "write" if one.get("writeonly") else "read" if kind == "textures" or one.get("readonly") else "read and write"
+            rows.append({"binding": binding, "name": name, "kind": said, "access": access, "resource": what,
+                         **({"format": one["format"]} if "format" in one else {}), **({"level": int(level)} if level else {})})
+    if len(rows) != len(BOUND[step]):
+        sys.exit(f"kit: {step} no longer has all bindings of the table in tools/kit.py")
+    return sorted(rows, key=lambda row: row["binding"])
 
 
-def push_table(reflection):
+def table(step, rows):
+    lines = ""
+    for row in rows:
+        level = f", level {row['level']}" if "level" in row else ""
+        lines += f"| {row['binding']} | `{row['name']}` | {row['kind']}{' ' + row.get('format', '') if 'format' in row else ''} | {row['access']} | {row['resource']}{level} |\n"
+    return f"### {step}\n\n| binding | name | kind | access | resource |\n|---|---|---|---|---|\n{lines}\n"
+
+
+def push_block(reflection):
+    """Offset, type and name of each member, which the page must have as well."""
     block = reflection["types"][reflection["push_constants"][0]["type"]]["members"]
-    names = re.search(r"uniform Push \{(.*?)\}", (SHADERS / "realtime/realtime.glsl").read_text(), re.S)[1]
-    names = re.findall(r"\b(\w+)(?=[,;])", re.sub(r"//.*", "", names))
-    if len(names) != len(block):
-        sys.exit("kit: the push block of realtime.glsl cannot be read")
-    return "| offset | type | name |\n|---|---|---|\n" + "".join(
-        f"| {member['offset']} | {member['type']} | `{name}` |\n" for name, member in zip(names, block))
+    members = [{"offset": one["offset"], "type": one["type"], "name": one["name"]} for one in block]
+    rows = re.findall(r"^\| (\d+) \| (\w+) \| `(\w+)` \|", PAGE.read_text(), re.M)
+    if rows != [(str(one["offset"]), one["type"], one["name"]) for one in members]:
+        sys.exit(f"kit: the push block of {PAGE.name} is not that of realtime.glsl: {members}")
+    return members
 
 
-def write(out):
+def write(out, program):
     shutil.rmtree(out, ignore_errors=True)
     made = out.parent / (out.name + "-made")
     for folder in (made, *(out / name for name in ("glsl", "spirv", "hlsl", "msl", "wgsl"))):
         folder.mkdir(parents=True, exist_ok=True)
-    tables, told, push = "", "", ""
-    for step in STEPS:
+    tables, told, kit = "", "", {"format": "petzval shader kit", "version": 1, "push": None, "programs": []}
+    for step in BOUND:
         reflection, said = translate(step, made, out)
-        tables += table(step, reflection)
+        rows = bindings(step, reflection)
+        kit["programs"].append({"name": step, "groups": GROUPS[step], "bindings": rows})
+        kit["push"] = push_block(reflection)
+        tables += table(step, rows)
         told += f"| `{step}` | {said} |\n"
-        push = push or push_table(reflection)
-    (out / "README.md").write_text((ROOT / "docs/explain/shader-kit.md").read_text() +
-                                   f"\n## WGSL of this kit\n\n| program | WGSL |\n|---|---|\n{told}\n## Push block\n\n{push}\n## Bindings\n\n{tables}")
+    (out / "README.md").write_text(PAGE.read_text() + f"\n## WGSL of this kit\n\n| program | WGSL |\n|---|---|\n{told}\n## Bindings\n\n{tables}")
+    (out / "kit.json").write_text(json.dumps(kit, indent=1) + "\n")
+    if program:
+        run(program, "lens", "buffer", "ideal", "-o", out / "lens.bin")
     shutil.copy(ROOT / "LICENSE", out)
     shutil.rmtree(made)
 
 
 if __name__ == "__main__":
-    folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "build/kit").resolve()
-    write(folder)
-    print(folder)
+    asked = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    asked.add_argument("folder", nargs="?", type=pathlib.Path, default=ROOT / "build/kit")
+    asked.add_argument("--petzval", metavar="PROGRAM")
+    given = asked.parse_args()
+    write(given.folder.resolve(), given.petzval)
+    print(given.folder.resolve())

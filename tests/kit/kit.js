@@ -1,14 +1,26 @@
-// A host of the shader kit on WebGPU: draws one frame by its WGSL (docs/explain/shader-kit.md) and returns the floats.
+// A host of the shader kit on WebGPU: draws one frame by its WGSL and its kit.json, by docs/explain/shader-kit.md
+// alone, and returns the floats.
 const TILE = 16, PUSH = 64, SAMPLER = 32;
 
-// Names, bindings and types of what a program uses; a declaration that nothing uses is in no layout.
+// Bindings that a program uses: a declaration that nothing uses is in no automatic layout.
 function used(wgsl) {
   const found = [...wgsl.matchAll(/@group\(0\) @binding\((\d+)\)\s*var(?:<[^>]*>)? (\w+): ([^;]+);/g)];
   return found.filter(([, , name]) => wgsl.match(new RegExp(`\\b${name}\\b`, "g")).length > 1)
-              .map(([, binding, , type]) => ({ binding: Number(binding), type }));
+              .map(([, binding]) => Number(binding));
 }
 
-async function draw({ width, height, mostPx, programs, lens, colour, radii }) {
+// The push block as bytes, from values by name.
+function pushed(members, values) {
+  const bytes = new ArrayBuffer(64);
+  for (const { offset, type, name } of members) {
+    const Floats = { float: Float32Array, vec2: Float32Array, int: Int32Array, ivec2: Int32Array, uint: Uint32Array }[type];
+    const given = [values[name]].flat();
+    new Floats(bytes, offset, given.length).set(given);
+  }
+  return bytes;
+}
+
+async function draw({ width, height, mostPx, programs, kit, lens, colour, radii }) {
   const adapter = await navigator.gpu?.requestAdapter();
   if (!adapter) return null;
   const device = await adapter.requestDevice();
@@ -27,45 +39,41 @@ async function draw({ width, height, mostPx, programs, lens, colour, radii }) {
     return made;
   };
   const own = TEXTURE_BINDING | STORAGE_BINDING;
-  const colours = given("rgba32float", colour, 16), depths = given("r32float", radii, 4);
-  const cells = texture("rgba16float", [8 * across, 8 * down, 5], own, 4), gathered = texture("rgba16float", [8 * across, 8 * down, 3], own);
-  const result = texture("rgba32float", [width, height], STORAGE_BINDING | COPY_SRC);
-  const whole = (made) => made.createView({ dimension: "2d-array" });
-  const level = (baseMipLevel) => cells.createView({ dimension: "2d-array", baseMipLevel, mipLevelCount: 1 });
-  const surroundings = buffer(8 * tiles), cellLamps = buffer(1024 * tiles);
-  const [radiiOfTiles, reach, lamps, boxes, kept] = [0, 1, 2, 3, 4].map(() => buffer(16 * tiles));
-  const push = new ArrayBuffer(64);
-  new Int32Array(push, 0, 4).set([width, height, across, down]);
-  new Float32Array(push, 16, 4).set([0, 1, mostPx, 1]);  // depth is the radius
-  new Float32Array(push, 36, 1).set([1]);
-  const linear = device.createSampler({ magFilter: "linear", minFilter: "linear", mipmapFilter: "linear" });
-  const shapes = { buffer: buffer(lens.byteLength, lens) }, of = (made) => ({ buffer: made });
-  const bound = {
-    measure: { 0: colours.createView(), 1: of(surroundings) },
-    split: { 0: colours.createView(), 1: depths.createView(), 2: level(0), 3: level(1), 4: level(2), 5: level(3),
-             6: of(radiiOfTiles), 7: of(surroundings), 8: of(lamps), 9: of(cellLamps) },
-    reach: { 0: of(radiiOfTiles), 1: of(reach), 2: of(lamps), 3: of(boxes), 4: of(kept), 5: of(cellLamps) },
-    gather: { 0: whole(cells), 1: shapes, 2: of(reach), 3: whole(gathered) },
-    combine_32: { 0: colours.createView(), 1: whole(cells), 2: colours.createView(), 3: whole(gathered), 4: result.createView(),
-                  5: shapes, 6: of(kept), 7: of(boxes), 8: of(reach), 9: of(cellLamps) },
+  const resources = {
+    colour: given("rgba32float", colour, 16), depth: given("r32float", radii, 4),  // depth is the radius
+    cells: texture("rgba16float", [8 * across, 8 * down, 5], own, 4),
+    gathered: texture("rgba16float", [8 * across, 8 * down, 3], own),
+    result: texture("rgba32float", [width, height], STORAGE_BINDING | COPY_SRC),
+    lens: buffer(lens.byteLength, lens), surroundings: buffer(8 * tiles), cell_lamps: buffer(1024 * tiles),
   };
-  const constants = of(buffer(64, push, GPUBufferUsage.UNIFORM));
-  const groups = { measure: [across, down], split: [across, down], reach: [Math.ceil(tiles / 64), 1], gather: [across, down],
-                   combine_32: [Math.ceil(width / 8), Math.ceil(height / 8)] };
+  resources.layer = resources.colour;
+  for (const name of ["tiles", "reach", "lamps", "kept", "boxes"]) resources[name] = buffer(16 * tiles);
+  const constants = buffer(64, pushed(kit.push, {
+    size: [width, height], tiles: [across, down], add_px: 0, per_depth_px: 1, most_px: mostPx, aspect: 1, has_layer: 0,
+    exposure: 1, zone_scale: [1 / width, 1 / height], zone_add: [0, 0], view: 0 }), GPUBufferUsage.UNIFORM);
+  const linear = device.createSampler({ magFilter: "linear", minFilter: "linear", mipmapFilter: "linear" });
+  const of = ({ resource, kind, level }) => {
+    const made = resources[resource];
+    if (kind === "buffer") return { buffer: made };
+    const dimension = resource === "cells" || resource === "gathered" ? "2d-array" : "2d";
+    return made.createView(level === undefined ? { dimension } : { dimension, baseMipLevel: level, mipLevelCount: 1 });
+  };
+  const groups = { "tiles": [across, down], "tiles / 64": [Math.ceil(tiles / 64), 1], "pixels / 8": [Math.ceil(width / 8), Math.ceil(height / 8)] };
   const commands = device.createCommandEncoder();
-  for (const [name, resources] of Object.entries(bound)) {
-    const pipeline = device.createComputePipeline({ layout: "auto", compute: { module: device.createShaderModule({ code: programs[name] }) } });
-    const resource = (binding) => binding === PUSH ? constants : binding >= SAMPLER ? linear : resources[binding];
-    const entries = used(programs[name]).map(({ binding }) => ({ binding, resource: resource(binding) }));
+  for (const { name, bindings, groups: count } of kit.programs.filter((one) => one.name in programs)) {
+    const code = programs[name];
+    const pipeline = device.createComputePipeline({ layout: "auto", compute: { module: device.createShaderModule({ code }) } });
+    const entries = used(code).map((binding) => ({ binding, resource: binding === PUSH ? { buffer: constants }
+      : binding >= SAMPLER ? linear : of(bindings.find((one) => one.binding === binding)) }));
     const pass = commands.beginComputePass();
     pass.setPipeline(pipeline);
     pass.setBindGroup(0, device.createBindGroup({ layout: pipeline.getBindGroupLayout(0), entries }));
-    pass.dispatchWorkgroups(...groups[name]);
+    pass.dispatchWorkgroups(...groups[count]);
     pass.end();
   }
   const bytesPerRow = 256 * Math.ceil(width * 16 / 256);
   const read = device.createBuffer({ size: bytesPerRow * height, usage: GPUBufferUsage.COPY_DST | GPUBufferUsage.MAP_READ });
-  commands.copyTextureToBuffer({ texture: result }, { buffer: read, bytesPerRow }, [width, height]);
+  commands.copyTextureToBuffer({ texture: resources.result }, { buffer: read, bytesPerRow }, [width, height]);
   device.queue.submit([commands.finish()]);
   const refused = await device.popErrorScope();
   if (refused) throw new Error(refused.message);

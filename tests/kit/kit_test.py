@@ -1,13 +1,15 @@
 """The kit's WGSL in headless Chromium's WebGPU, on SwiftShader: its frame is the Vulkan pass's.
 
-Usage: kit_test.py PROGRAM, which draws the frame to compare with (kit_frame.cpp). Ends with 77, after the reason, where
-naga, the kit's compilers, Chromium, selenium, WebGPU or a Vulkan device is missing. /usr/bin/python3 runs this, because
+Usage: kit_test.py PROGRAM PETZVAL. PROGRAM draws the frame to compare with (kit_frame.cpp), PETZVAL writes the lens. Ends
+with 77, after the reason, where naga, the kit's compilers, Chromium, selenium, WebGPU or a Vulkan device is missing. /usr/bin/python3 runs this, because
 selenium is Debian's.
 """
 import array
 import base64
+import json
 import math
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -17,6 +19,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tests/browser"), str(ROOT / "tools")]
 STEPS = ("measure", "split", "reach", "gather", "combine_32")
 AT_LEAST_DB = 45
+LENS = "--blades 5 --focal-length 50 --sensor-width 36 --fstop 1.4 --focus 2 --width 200 --height 120".split()  # that of kit_frame.cpp
 DRAW = """
     const [frame, finish] = arguments;
     const bytes = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
@@ -51,7 +54,7 @@ def kit_in(folder):
         if not shutil.which(needed):
             skip(f"{needed} is not installed")
     subprocess.run([sys.executable, ROOT / "tools/kit.py", folder], stdout=subprocess.DEVNULL, check=True)
-    return {step: (folder / "wgsl" / f"{step}.wgsl").read_text() for step in STEPS}
+    return json.loads((folder / "kit.json").read_text()), {step: (folder / "wgsl" / f"{step}.wgsl").read_text() for step in STEPS}
 
 
 def drawn(frame, folder):
@@ -88,16 +91,25 @@ def main():
     with tempfile.TemporaryDirectory(prefix="petzval-kit-") as name:
         folder = pathlib.Path(name)
         width, height, most_px = frame_of(sys.argv[1], folder)
+        subprocess.run([sys.argv[2], "lens", "buffer", "ideal", *LENS, "-o", folder / "lens.bin", "-q"], check=True)
         read = {stem: (folder / f"{stem}.bin").read_bytes() for stem in ("lens", "colour", "radii", "expected")}
-        programs = kit_in(folder / "kit")
-        given = {stem: base64.b64encode(read[stem]).decode() for stem in ("lens", "colour", "radii")}
-        made = drawn({"width": width, "height": height, "mostPx": most_px, "programs": programs, **given}, folder)
+        kit, programs = kit_in(folder / "kit")
+        frame = {"width": width, "height": height, "mostPx": most_px, "programs": programs, "kit": kit}
+        frame.update({stem: base64.b64encode(read[stem]).decode() for stem in ("lens", "colour", "radii")})
+        made = drawn(frame, folder)
+        never = re.sub(r"\b256u\b", "100000u", programs["reach"])  # lamps that reach a tile before it merges its own
+        assert never != programs["reach"]
+        crowded = drawn({**frame, "programs": {**programs, "reach": never}}, folder)
     expected, sharp = array.array("f", read["expected"]), array.array("f", read["colour"])
     assert len(made) == len(expected) == 4 * width * height, len(made)
     blurred_db, found_db = psnr_db(expected, sharp), psnr_db(made, expected)
     print(f"kit_test: {found_db:.1f} dB from the Vulkan pass, which is {blurred_db:.1f} dB from the sharp picture")
     if not (blurred_db < 30 and found_db >= AT_LEAST_DB):
         sys.exit(f"kit_test: {AT_LEAST_DB} dB are asked for")
+    unmerged_db = psnr_db(crowded, expected)
+    print(f"kit_test: {unmerged_db:.1f} dB without merging of lamps")
+    if unmerged_db > found_db - 6:
+        sys.exit("kit_test: the frame has no tile whose lamps are merged")
 
 
 if __name__ == "__main__":
