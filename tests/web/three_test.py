@@ -95,6 +95,31 @@ class Three(Page):
                 energy = sum(map(sum, blurred["G"])) / sum(map(sum, expected["G"]))
                 self.assertAlmostEqual(energy, 1, delta=0.05)
 
+    def test_a_straight_edge_has_no_grain(self):
+        off, rim = self.done("""import("three").then((THREE) => {
+            const width = 160, height = 90, { renderer, camera, lens } = demo, metres = 40;
+            const pixels = new Float32Array(4 * width * height).map((_, i) => (i >= 2 * width * height ? 0 : 1));
+            const colour = new THREE.DataTexture(pixels, width, height, THREE.RGBAFormat, THREE.FloatType);
+            const far = camera.far, near = camera.near, at = (far / (far - near)) * (1 - near / metres);
+            const depth = new THREE.DataTexture(new Float32Array(width * height).fill(at), width, height, THREE.RedFormat, THREE.FloatType);
+            colour.needsUpdate = depth.needsUpdate = true;
+            const made = new THREE.WebGLRenderTarget(width, height, { type: THREE.FloatType }), read = new Float32Array(4 * width * height);
+            Object.assign(lens, { focalLength: 85, fStop: 1, focusDistance: 1, lampFactor: 0, maxRadius: 16 });
+            lens.setSize(width, height);
+            lens.render(renderer, colour, depth, made);
+            renderer.readRenderTargetPixels(made, 0, 0, width, height, read);
+            let off = 0, rim = 0;
+            for (let y = 20; y < 70; y++) {
+              const row = Array.from({ length: 60 }, (_, i) => read[4 * (y * width + 50 + i)]), mean = row.reduce((a, b) => a + b) / 60;
+              rim += mean > 0.05 && mean < 0.95;
+              off = Math.max(off, ...row.map((value) => Math.abs(value - mean)));
+            }
+            return [off, rim];
+        })""")
+        print(f"grain of an edge: {off:.3f} of its light, {rim} rows")
+        self.assertGreater(rim, 12)
+        self.assertLess(off, 0.03)
+
     def test_the_page_focuses_where_it_is_clicked_and_changes_lenses(self):
         shown = lambda: self.browser.execute_script("demo.draw(); return document.getElementById('view').toDataURL()")  # noqa: E731
         first = shown()

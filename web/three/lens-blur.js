@@ -41,6 +41,8 @@ export class LensBlur {
 
   /** Focuses on what a ray through that place meets. @param {Vector2} place in -1…1, x right, y up @returns {boolean} false: nothing is there */
   focusAt(place, raycaster, objects) {
+    this.camera.updateWorldMatrix(true, false);  // places are those of the last frame, if there was one
+    for (const object of objects) object.updateWorldMatrix(true, true);
     raycaster.setFromCamera(place, this.camera);
     const [hit] = raycaster.intersectObjects(objects, true);
     if (!hit) return false;
@@ -124,7 +126,8 @@ export class LensBlur {
     const tiles = whole(this.#target("tiles", tilesX, tilesY), "tiles", shaders.TILES, { split });
     const reach = whole(this.#target("reach", tilesX, tilesY), "reach", shaders.REACH, { tiles, around: Math.ceil((1.3 * this.maxRadius) / 16) + 1 });
     const rest = whole(this.#target("rest", width, height), "without lamps", shaders.WITHOUT_LAMPS, { split, lamp_factor: this.lampFactor });
-    const gathered = whole(this.#target("gathered", width, height), "gather", shaders.GATHER, { split: rest, reach, atlas, numbers, lens });
+    const taken = whole(this.#target("taken", width, height), "gather", shaders.GATHER, { split: rest, reach, atlas, numbers, lens });
+    const gathered = whole(this.#target("gathered", width, height), "mean", shaders.MEAN, { split: rest, gathered: taken });
     if (this.lampFactor <= 0) return gathered;
     // Sums of lamps apart: a target is not read while it is drawn into.
     const sum = this.#target("sum", width, height);

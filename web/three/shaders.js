@@ -189,6 +189,23 @@ void main() {
   result = vec4(mix(behind, front, cover), 1.0 - dot(cover, vec3(1.0 / 3.0)));
 }`;
 
+/** The mean of what neighbours gathered: each pixel turns its taps by another angle. Only wide blurs take it, because it softens. */
+export const MEAN = `${HEAD}
+uniform sampler2D split, gathered;
+out vec4 result;
+void main() {
+  ivec2 here = ivec2(gl_FragCoord.xy), last = textureSize(gathered, 0) - 1;
+  float own = abs(texelFetch(split, here, 0).a), weights = 0.0;
+  vec4 sum = vec4(0);
+  for (int y = -1; y <= 1; ++y)
+    for (int x = -1; x <= 1; ++x) {
+      ivec2 pixel = clamp(here + ivec2(x, y), ivec2(0), last);
+      float weight = x == 0 && y == 0 ? 1.0 : smoothstep(3.0, 8.0, min(own, abs(texelFetch(split, pixel, 0).a)));
+      sum += weight * texelFetch(gathered, pixel, 0), weights += weight;
+    }
+  result = sum / weights;
+}`;
+
 /** One instance a cell; a cell without a lamp draws nothing. */
 export const SPRITES = {
   vertex: `${HEAD}
