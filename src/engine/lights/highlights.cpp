@@ -2,6 +2,7 @@
 
 #include "base/content_hash.h"
 #include "base/parallel.h"
+#include "engine/samples/seen_share.h"
 #include "engine/samples/white.h"
 #include "image/two_sweeps.h"
 #include "laws/surfaces.h"
@@ -246,9 +247,14 @@ void take_pixel(const Rows& rows, int x, int y, std::optional<Block>& block, std
         CocSample& sample = samples.samples[k];
         const Rgba base = split.base(x, rows.first_row + y, sample.coc_px, sample.colour);
         if (base == sample.colour) continue;
-        const Rgba taken = sample.colour - base;
         const auto up_to_this = std::span(samples.samples).subspan(first, k + 1 - first);
-        const float leaves = same_pixel_px > 0 ? share_that_leaves(up_to_this, same_pixel_px) : 1;
+        float leaves = 1;
+        if (same_pixel_px > 0)
+            leaves = share_that_leaves(up_to_this, same_pixel_px);
+        else if (split.rule().hidden_known)
+            leaves = not_covered(up_to_this);
+        if (leaves <= 0) continue;  // what covers it hides it in the base
+        const Rgba taken = sample.colour - base;
         const float coc = std::clamp(split.radius_of_light(x, rows.first_row + y, sample.coc_px),
                                      -kWidestHighlightPx, kWidestHighlightPx);
         sample.colour = base;

@@ -42,6 +42,7 @@ struct HighlightRule {
     // nearer by up to this radius before it leaves the pixel, so these surfaces dim the highlight. 0: none
     // does.
     float same_pixel_px = 0;
+    bool hidden_known = false;  // true if hidden samples are given, not estimated
 };
 // The same_pixel_px of a deep picture; pixels may be narrower than they are high.
 constexpr float same_pixel_px(double pixel_aspect) {

@@ -11,7 +11,7 @@ constexpr int kWidth = 96, kHeight = 64;
 constexpr float kHiddenPx = 7;
 
 // The highlights taken from hidden light behind a dark, near pixel.
-std::vector<Highlight> taken(float light) {
+std::vector<Highlight> taken(float light, float hidden_px = kHiddenPx, const HighlightRule& rule = {}) {
     const Picture colour(kWidth, kHeight, Rgba{0.1f, 0.1f, 0.1f, 1});
     const Plane coc_px(kWidth, kHeight, -5.0f);
     EngineView input;
@@ -22,10 +22,10 @@ std::vector<Highlight> taken(float light) {
     for (int i = 0; i < kWidth * kHeight; ++i) {
         samples.first.push_back(samples.samples.size());
         samples.samples.push_back({{0.1f, 0.1f, 0.1f, 1}, -5, -5});
-        samples.samples.push_back({{light, light, light, 1}, kHiddenPx, kHiddenPx});
+        samples.samples.push_back({{light, light, light, 1}, hidden_px, hidden_px});
     }
     samples.first.push_back(samples.samples.size());
-    return take_highlights(samples, HighlightSplit(input, {}), 0, kLargestSquare, one_thread());
+    return take_highlights(samples, HighlightSplit(input, rule), 0, kLargestSquare, one_thread());
 }
 
 // White is half: four times the mean, to a power of two.
@@ -37,6 +37,13 @@ TEST(Highlights, AHiddenSkyIsTakenAsSquaresALampAsPixels) {
     EXPECT_GT(std::count_if(sky.begin(), sky.end(), inside), 0);
     for (const Highlight& h : sky) EXPECT_TRUE(h.size == 2 || !inside(h));
     for (const Highlight& h : lamp) EXPECT_EQ(h.size, 1);
+}
+
+// The shadows of a light leave out what is less than 0.2 px in front of it.
+TEST(Highlights, NoneIsTakenRightBehindAnOpaqueSurface) {
+    EXPECT_TRUE(taken(3, -4.9f, {.hidden_known = true}).empty());
+    EXPECT_FALSE(taken(3, -4.7f, {.hidden_known = true}).empty());
+    EXPECT_FALSE(taken(3, -4.9f).empty()) << "where hidden light is estimated";
 }
 
 // A lamp of two pixels before a wall, and its rim in pixels that have the wall's radius.

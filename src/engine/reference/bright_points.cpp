@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace petzval::engine {
 namespace {
 
 constexpr float kDark = 1e-3f;  // keeps reciprocals finite; far below anything that is compared with it
 constexpr float kWidestPx = 1024;
+constexpr float kNoRayBetweenPx = 0.02f;  // of radius
 constexpr float kOverSurroundings = 1.5f, kOverWhite = 0.25f;
 
 // The mean over the square of `reach` pixels to every side of each pixel, as much of it as lies in the
@@ -64,22 +66,35 @@ float share_that_stays(const CocSample& s, float surroundings, float white) {
     return bound / light;
 }
 
+// True if samples right in front of the last one cover it. No ray is followed between these; facets hide what
+// stays on the surface. samples: of one pixel, nearest first.
+bool is_covered(std::span<const CocSample> samples) {
+    float open = 1;
+    for (const CocSample& s : samples.first(samples.size() - 1))
+        if (samples.back().coc_px - s.coc_px <= kNoRayBetweenPx) open -= s.colour.a;
+    return open < kDark;
+}
+
 }  // namespace
 
 std::vector<BrightPoint> take_bright_points(CocSamples& samples, const EngineView& input) {
     const Plane surroundings = surroundings_of(input.samples.colour, *input.services.workers);
     const float white = white_of(input.all().samples.colour);
+    const bool dims_itself = input.samples.deep_dims_itself;
+    const std::span<const CocSample> all(samples.samples);
     std::vector<BrightPoint> points;
     for (int y = 0; y < samples.height(); ++y)
         for (int x = 0; x < samples.width; ++x) {
             const bool outermost = x == 0 || y == 0 || x == samples.width - 1 || y == samples.height() - 1;
             const std::size_t pixel = std::size_t(y) * std::size_t(samples.width) + std::size_t(x);
+            const std::size_t first = samples.first[pixel];
             int facets = 0;
-            for (std::size_t k = samples.first[pixel]; k < samples.first[pixel + 1]; ++k) {
+            for (std::size_t k = first; k < samples.first[pixel + 1]; ++k) {
                 CocSample& s = samples.samples[k];
                 const float share = share_that_stays(s, (outermost ? 2 : 1) * surroundings(x, y), white);
                 const int in_front = s.colour.a > kLeastCoverage ? facets++ : facets;
                 if (share >= 1) continue;
+                if (!dims_itself && is_covered(all.subspan(first, k + 1 - first))) continue;
                 const Rgba stays{s.colour.r * share, s.colour.g * share, s.colour.b * share, s.colour.a};
                 points.push_back(
                     {x, y, std::clamp(s.coc_px, -kWidestPx, kWidestPx), s.colour - stays, in_front});

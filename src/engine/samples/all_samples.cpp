@@ -7,11 +7,13 @@
 namespace petzval::engine {
 namespace {
 
-// Right behind another surface no ray gets in between: of a pixel's samples from `first` on, each keeps the
-// room that those less than laws::kOwnSurfacePx in front of it leave.
+// Right behind another surface no ray gets in between: of a pixel's samples from `first` on, each translucent
+// one keeps the room that those less than laws::kOwnSurfacePx in front of it leave. An opaque one stays,
+// because it hides what lies farther behind.
 void hide_what_is_covered(BigVector<CocSample>& samples, std::size_t first) {
     for (std::size_t k = samples.size(); k-- > first + 1;) {
         CocSample& s = samples[k];
+        if (s.colour.a >= laws::kOpaqueLayer && k + 1 < samples.size()) continue;
         float room = 1;
         for (std::size_t j = k; j-- > first && s.coc_px - samples[j].coc_px < laws::kOwnSurfacePx;)
             if (samples[j].coc_px < s.coc_px) room -= samples[j].colour.a;
@@ -35,7 +37,8 @@ void match_what_shows(BigVector<CocSample>& samples, std::size_t first, Rgba pic
         const CocSample& s = samples[end];
         if (end > first && s.coc_px > samples[end - 1].coc_px) in_front = covered;
         if (in_front > kCovered) break;
-        covered += s.colour.a, span_px = s.coc_px - samples[first].coc_px;
+        covered += s.colour.a;
+        span_px = s.coc_px - samples[first].coc_px;
         if (s.colour.a > 0) shown += std::min(1.0f, (1 - in_front) / s.colour.a) * s.colour;
     }
     const float bright = luminance(picture);

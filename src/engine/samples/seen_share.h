@@ -1,9 +1,11 @@
-// The share of a sample that the picture shows.
+// The share of a sample that the picture, or its own pixel, shows.
 #pragma once
 
 #include "engine/waist/coc_samples.h"
+#include "laws/surfaces.h"
 
 #include <algorithm>
+#include <span>
 
 namespace petzval::engine {
 
@@ -16,6 +18,17 @@ inline float seen(const CocSample& s, float& open) {
     const float share = std::min(1.0f, open / covers);
     open = std::max(0.0f, open - share * covers);
     return share;
+}
+
+// Samples of one pixel that cover each other, nearest first: the share of the last that the others leave
+// free, if they lie so close in front of it that no ray comes between. Shadows leave these out.
+inline float not_covered(std::span<const CocSample> samples) {
+    constexpr float kLeast = 1e-3f;
+    const CocSample& own = samples.back();
+    float room = 1;
+    for (const CocSample& s : samples.first(samples.size() - 1))
+        if (s.coc_px < own.coc_px && own.coc_px - s.coc_px < laws::kOwnSurfacePx) room -= s.colour.a;
+    return room < kLeast ? 0 : std::min(1.0f, room / std::max(kLeast, own.colour.a));
 }
 
 }  // namespace petzval::engine
