@@ -40,5 +40,25 @@ TEST(AllSamples, ATranslucentOneHasNoRoomThere) {
     EXPECT_EQ(samples[1].coc_px, kSkyPx);
 }
 
+// Two black samples state 0.4 and 0.62, but the second is hidden in part by the first: 0.375 of a sign shows.
+TEST(AllSamples, LightThatThePictureShowsBetweenThemStays) {
+    const float shows = 0.375f;
+    const Picture colour(1, 1, Rgba{shows, shows, shows, 1});
+    const Plane radii(1, 1, -0.08f);
+    const auto behind = DeepPicture::made_of(1, 1, [](int, int, std::vector<DeepSample>& into) {
+        into.push_back({{0, 0, 0, 0.4f}, -0.082f, -0.082f});
+        into.push_back({{0, 0, 0, 0.62f}, -0.08f, -0.08f});
+        into.push_back({{1, 1, 1, 1}, 0.93f, 0.93f});
+    });
+    const StatedPicture stated{.colour = colour,
+                               .depth = radii,
+                               .behind = &behind,
+                               .meaning = StatedRadii{[](float radius) { return radius; }}};
+    const CocSamples all = all_samples(stated, one_thread());
+    ASSERT_EQ(all.samples.size(), 3u);
+    EXPECT_NEAR(all.samples[0].colour.a + all.samples[1].colour.a, 1 - shows, 0.02f);
+    EXPECT_EQ(all.samples[2].colour.a, 1);
+}
+
 }  // namespace
 }  // namespace petzval::engine
