@@ -62,7 +62,9 @@ bool EdgeEnds::end_at(const EdgePlace& start, int side, EdgeEnd& end) const {
     end.bright_is_right = point.rises == (start.upright ? side < 0 : side > 0);
     end.coc_px = points_.radii()(end.at.x, end.at.y);
     const PixelAt back = start.moved(side * (1 - n), nearest_pixel(line.at(n - 1))).pixel();
-    end.slope = (end.coc_px - points_.radii()(back.x, back.y)) / ((count - 1) * length);
+    // (The fitted line may leave the picture beside the points.)
+    const bool known = points_.radii().rect().contains(back.x, back.y);
+    end.slope = known ? (end.coc_px - points_.radii()(back.x, back.y)) / ((count - 1) * length) : 0;
     end.strength = rise(change, model.edge_change, 2 * model.edge_change);
     end.known_px = model.end_px / slope_error;
     return true;
