@@ -120,6 +120,17 @@ PETZVAL_C_API petzval_status petzval_lens_atlas(const petzval_lens* lens, const 
                                                 const petzval_atlas* atlas, void* texels, size_t byte_count,
                                                 petzval_text** header);
 
+/* Finds the size of a lens buffer, without making it: 1.4 to 2.3 MB, or 45 times as much if discs change over
+ * the frame. quality: "draft", "standard" or "final"; null: "standard". The mount may be null. */
+PETZVAL_C_API petzval_status petzval_lens_buffer_bytes(const petzval_lens* lens,
+                                                       const petzval_lens_mount* mount, const char* quality,
+                                                       size_t* bytes);
+/* Writes the lens as the programs of the shader kit read it, the content of lens.bin
+ * (docs/explain/shader-kit.md), into byte_count bytes, at least petzval_lens_buffer_bytes(). Pixels must be
+ * square. mount and quality may be null. */
+PETZVAL_C_API petzval_status petzval_lens_buffer(const petzval_lens* lens, const petzval_lens_mount* mount,
+                                                 const char* quality, void* buffer, size_t byte_count);
+
 #ifdef __cplusplus
 }
 #endif

@@ -150,5 +150,9 @@ struct RealtimeLensBuffer {
 PETZVAL_API Result<RealtimeLensBuffer> realtime_lens_buffer(const Lens& lens, const Camera& camera,
                                                             int width_px, int height_px,
                                                             Quality quality = Quality::Standard);
+// Its size, without making it. Errors: the same.
+PETZVAL_API Result<std::size_t> realtime_lens_buffer_bytes(const Lens& lens, const Camera& camera,
+                                                           int width_px, int height_px,
+                                                           Quality quality = Quality::Standard);
 
 }  // namespace petzval

@@ -129,6 +129,18 @@ class Lens:
             header = text_of("petzval_lens_atlas", self._handle, mount, ctypes.byref(asked), texels, count)
         return header, texels.raw
 
+    def buffer(self, quality: str = "standard", *, camera: Camera = OWN, size: tuple[int, int] = (1920, 1080)) -> bytes:
+        """The lens for the programs of the shader kit: the content of lens.bin, as `petzval lens buffer` writes it.
+
+        docs/explain/shader-kit.md describes it. quality: "draft", "standard" or "final".
+        """
+        chosen, count = errors.of_type(quality, str, "quality", "a name").encode(), ctypes.c_size_t()
+        with _Mount(camera, size, 1) as mount:
+            call("petzval_lens_buffer_bytes", self._handle, mount, chosen, ctypes.byref(count))
+            floats = ctypes.create_string_buffer(count.value)
+            call("petzval_lens_buffer", self._handle, mount, chosen, floats, count)
+        return floats.raw
+
     def __del__(self) -> None:
         handle = getattr(self, "_handle", None)
         if handle:

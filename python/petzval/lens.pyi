@@ -65,6 +65,12 @@ class Lens:
         InvalidArgument for several zones of a lens whose pupil is not round.
         """
 
+    def buffer(self, quality: str='standard', *, camera: Camera=..., size: tuple[int, int]=(1920, 1080)) -> bytes:
+        """The lens for the programs of the shader kit: the content of lens.bin, as `petzval lens buffer` writes it.
+
+        docs/explain/shader-kit.md describes it. quality: "draft", "standard" or "final".
+        """
+
     def __repr__(self) -> str:
         ...
 

@@ -20,4 +20,12 @@ Result<RealtimeLensBuffer> realtime_lens_buffer(const Lens& lens, const Camera& 
     return buffer;
 }
 
+Result<std::size_t> realtime_lens_buffer_bytes(const Lens& lens, const Camera& camera, int width_px,
+                                               int height_px, Quality quality) {
+    const auto mounted = kernel::make_lens(lens, {camera, width_px, height_px});
+    if (!mounted) return mounted.error();
+    const std::uint32_t zones = engine::realtime_zones(**mounted, width_px, height_px).count();
+    return engine::RealtimeLens::count(engine::realtime_taps(quality), zones) * sizeof(Rgba);
+}
+
 }  // namespace petzval

@@ -22,7 +22,7 @@ sys.path.insert(0, str(ROOT / "tests/cli"))
 import pictures  # noqa: E402
 
 LENS_FILE = ROOT / "lenses/petzval-laikin.json"
-program = c_program = ""
+program = c_program = c_buffer = ""
 
 
 class Files(unittest.TestCase):
@@ -60,6 +60,20 @@ class Files(unittest.TestCase):
             header, texels = lens.atlas(20, zones, size=(960, 540))
             self.assertEqual(header + "\n", (self.folder / "atlas/atlas.json").read_text())
             self.assertEqual(texels, (self.folder / "atlas/atlas.bin").read_bytes())
+
+    def test_a_lens_buffer_is_that_of_the_command_line(self):
+        for cats_eye, quality, places in ((0, "standard", 1), (0.5, "draft", 45)):
+            self.run_program("lens", "buffer", "doublet", *(("--cats-eye", cats_eye) if cats_eye else ()), "--quality",
+                             quality, "--width", 960, "-o", self.folder / "program.bin", "--overwrite")
+            expected = (self.folder / "program.bin").read_bytes()
+            taps, _, columns, rows = np.frombuffer(expected, "<f4")[:4]
+            self.assertEqual((taps, columns * rows), (48 if quality == "standard" else 24, places))
+            lens = petzval.Lens("doublet").used(cats_eye=cats_eye)
+            self.assertEqual(lens.buffer(quality, size=(960, 540)), expected)
+            subprocess.run([c_buffer, "doublet", str(cats_eye), quality, self.folder / "c.bin"], check=True)
+            self.assertEqual((self.folder / "c.bin").read_bytes(), expected)
+        with self.assertRaisesRegex(petzval.InvalidArgument, "draft, standard, final"):
+            lens.buffer("best")
 
     def test_c_python_and_the_command_line_give_the_same_bits(self):
         """One shot with layers, a lens file and a track of focus distances."""
@@ -154,5 +168,5 @@ class Files(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    program, c_program = sys.argv.pop(1), sys.argv.pop(1)
+    program, c_program, c_buffer = sys.argv.pop(1), sys.argv.pop(1), sys.argv.pop(1)
     unittest.main(verbosity=2)

@@ -213,7 +213,7 @@ RealtimeLens realtime_lens(const kernel::LensModel& lens, const RealtimeZones& z
     constexpr double kLeastPx = 16, kMostPx = 64;
     RealtimeLens made;
     add_taps(taps, zones, made.fours);
-    made.fours.reserve(made.first_zone() + zones.count() * made.of_zone());
+    made.fours.reserve(RealtimeLens::count(taps, zones.count()));
     add_grid(taps, made.fours);
     const double near_px = std::clamp(near_radius_px, kLeastPx, kMostPx),
                  far_px = std::clamp(far_radius_px, kLeastPx, kMostPx);

@@ -69,9 +69,13 @@ struct RealtimeLens {
     static_assert(kOfLamps == 67800, "as shaders/realtime.glsl has it");
     std::vector<Rgba> fours;
     int taps() const { return int(fours[0].r); }
-    std::size_t all_taps() const { return std::size_t(kSpirals * taps() + kGridTaps); }
-    std::size_t first_zone() const { return 1 + all_taps(); }  // where weights begin
-    std::size_t of_zone() const { return all_taps() * 2 * kShares + kOfLamps; }
+    static constexpr std::size_t all_taps(int taps) { return std::size_t(kSpirals * taps + kGridTaps); }
+    static constexpr std::size_t of_zone(int taps) { return all_taps(taps) * 2 * kShares + kOfLamps; }
+    // Number of fours of a lens.
+    static constexpr std::size_t count(int taps, std::uint32_t zones) {
+        return 1 + all_taps(taps) + zones * of_zone(taps);
+    }
+    std::size_t first_zone() const { return 1 + all_taps(taps()); }  // where weights begin
     std::size_t bytes() const { return fours.size() * sizeof(Rgba); }
 };
 

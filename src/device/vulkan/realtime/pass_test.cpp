@@ -30,13 +30,14 @@ TEST(RealtimeLens, CountsOneOfAPlaneAtEveryRadius) {
     for (const int taps : {24, 48, RealtimeLens::kMostTaps}) {
         const RealtimeLens lens = *ideal_lens(taps);
         EXPECT_EQ(lens.taps(), taps);
-        ASSERT_EQ(lens.fours.size(), lens.first_zone() + lens.of_zone());
+        ASSERT_EQ(lens.fours.size(), RealtimeLens::count(taps, 1));
         constexpr std::size_t kShares = RealtimeLens::kShares, kSets = RealtimeLens::kSpirals + 1;
         // In front of focus, then behind it.
         for (std::size_t set = 0; set < 2 * kSets; ++set) {
             const bool is_grid = set % kSets == RealtimeLens::kSpirals;
             const auto count = std::size_t(is_grid ? RealtimeLens::kGridTaps : taps);
-            const std::size_t first = set / kSets * lens.all_taps() + set % kSets * std::size_t(taps);
+            const std::size_t first =
+                set / kSets * RealtimeLens::all_taps(taps) + set % kSets * std::size_t(taps);
             for (std::size_t share = 0; share < kShares; ++share) {
                 float sum = 0;
                 for (std::size_t i = 0; i < count; ++i)
