@@ -1,11 +1,13 @@
 // Draws one frame by the real-time pass on the first Vulkan device and writes what a host of the shader
 // kit needs to draw it as well, but the lens: FOLDER/colour.bin, radii.bin, and expected.bin, floats row by
-// row; prints width, height and largest radius. Ends with 77 where no device is found.
+// row; prints width, height and largest radius. Ends with 77 where no device is found. Usage: kit_frame
+// FOLDER CATS_EYE.
 #include "device/vulkan/driver/test_context.h"
 #include "device/vulkan/realtime/realtime.h"
 #include "kernel/lenses/make_lens.h"
 
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -44,7 +46,7 @@ void write(const std::filesystem::path& file, const T* values, std::size_t count
 }  // namespace
 
 int main(int count, char** words) {
-    if (count != 2) return 2;
+    if (count != 3) return 2;
     const std::filesystem::path folder = words[1];
     const auto context = device::vulkan::any_context();
     if (!context) return 77;
@@ -54,6 +56,7 @@ int main(int count, char** words) {
     const kernel::Mount mount{{50, 36, 1.4, 2}, kWidth, kHeight};
     LensChoice choice;
     choice.aperture.blades = 5;
+    choice.cats_eye = std::atof(words[2]);
     const auto lens = std::make_shared<const engine::RealtimeLens>(engine::realtime_lens_of_host(
         **kernel::make_lens(choice, mount), kWidth, kHeight, Quality::Standard));
     device::vulkan::RealtimeDrawer(*context).draw({colour, radii, kMostPx, 1, lens}, out, {});
