@@ -83,22 +83,29 @@ std::vector<Rgba> shape_of(const PointSpread& spread, double radius_px) {
 // Makes kernels of the lamps' radii from a kernel of radius_px.
 void add_lamp_kernels(const PointSpread& spread, double radius_px, std::size_t begins,
                       std::vector<Rgba>& fours) {
+    constexpr double kEmptyRim = 1.5;  // cells: all four cells around a place within reach lie in the square
     double lamp_px = LampKernels::kFirstPx;
     for (int i = 0; i < LampKernels::kSteps; ++i, lamp_px *= std::numbers::sqrt2) {
         const int half = LampKernels::half_side(lamp_px), per_px = LampKernels::cells_per_px(lamp_px);
         const double cell = radius_px / (lamp_px * per_px), pixel = cell * per_px;
-        fours[begins + std::size_t(i)] = {float(fours.size()), float(half), float(lamp_px * per_px), 0};
         const std::size_t first = fours.size();
         Rgba sum;
+        double farthest = 0;
         for (int y = -half; y <= half; ++y)
             for (int x = -half; x <= half; ++x) {
-                const bool is_rim = std::max(std::abs(x), std::abs(y)) == half;
-                fours.push_back(is_rim ? Rgba{}
-                                       : mean_weight(spread, x * cell - 0.5 * pixel, y * cell - 0.5 * pixel,
-                                                     pixel, float(cell * cell)));
-                sum += fours.back();
+                const double away = std::hypot(x, y);
+                fours.push_back(away > half - kEmptyRim
+                                    ? Rgba{}
+                                    : mean_weight(spread, x * cell - 0.5 * pixel, y * cell - 0.5 * pixel,
+                                                  pixel, float(cell * cell)));
+                const Rgba& made = fours.back();
+                if (made.r + made.g + made.b > 0) farthest = std::max(farthest, away);
+                sum += made;
             }
-        // Light beyond the square is given to the cells inside it.
+        const double reach = farthest + std::numbers::sqrt2;  // a place lies between four cells
+        fours[begins + std::size_t(i)] = {float(first), float(half), float(lamp_px * per_px),
+                                          float(reach * reach)};
+        // Light beyond the circle is given to the cells inside it.
         for (std::size_t k = first; k < fours.size(); ++k) {
             Rgba& f = fours[k];
             f = {f.r / sum.r, f.g / sum.g, f.b / sum.b, f.a / sum.a};
@@ -180,6 +187,18 @@ void add_zone(const kernel::LensModel& lens, kernel::FieldPosition field, double
     add_lamp_kernels(far_spread, far_px, lamps + LampKernels::kSteps, fours);
 }
 
+// Kernels are interpolated between zones, so a lamp reaches as far as in any of them.
+void share_reaches(std::uint32_t zones, RealtimeLens& made) {
+    const std::size_t of_zone = RealtimeLens::of_zone(made.taps()),
+                      heads = made.first_zone() + of_zone - RealtimeLens::kOfLamps;
+    for (std::size_t i = heads; i < heads + 2 * std::size_t(LampKernels::kSteps); ++i) {
+        float most = 0;
+        for (std::size_t zone = 0; zone < zones; ++zone)
+            most = std::max(most, made.fours[i + zone * of_zone].a);
+        for (std::size_t zone = 0; zone < zones; ++zone) made.fours[i + zone * of_zone].a = most;
+    }
+}
+
 }  // namespace
 
 kernel::FieldPosition RealtimeZones::at(std::uint32_t zone) const {
@@ -219,6 +238,7 @@ RealtimeLens realtime_lens(const kernel::LensModel& lens, const RealtimeZones& z
                  far_px = std::clamp(far_radius_px, kLeastPx, kMostPx);
     for (std::uint32_t zone = 0; zone < zones.count(); ++zone)
         add_zone(lens, zones.at(zone), near_px, far_px, made);
+    share_reaches(zones.count(), made);
     return made;
 }
 

@@ -18,9 +18,10 @@ namespace petzval::engine {
 
 // Kernels of lamps: of kSteps radii, each sqrt(2) times as large as the one before. First come their heads,
 // those in front of focus and then those behind it: index of the kernel's first four, cells from the middle
-// to the rim of its square, radius in cells, 0. Then come the weights of all kernels; those of one kernel sum
-// to 1. A cell is a pixel, or half of one up to kFinePx, because interpolation between whole pixels would
-// soften the rims of small discs.
+// to the rim of its square, radius in cells, and the squared distance from the middle from which on no place
+// between cells has light (in any zone). Then come the weights of all kernels; those of one kernel sum to 1,
+// and cells outside the largest circle of the square have none. A cell is a pixel, or half of one up to
+// kFinePx, because interpolation between whole pixels would soften the rims of small discs.
 struct LampKernels {
     static constexpr int kSteps = 14;
     static constexpr double kFirstPx = 0.5, kHalf = 1.25;  // pixels; radii that a square is half as wide as

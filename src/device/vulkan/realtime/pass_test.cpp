@@ -67,6 +67,35 @@ TEST(RealtimeLens, SmallDiscsAreAsWideAsTheirRadius) {
     }
 }
 
+// A place at the reach or farther lies between cells without light, in every zone; a nearer one may not.
+TEST(RealtimeLens, NamesHowFarKernelsOfLampsReach) {
+    using engine::LampKernels, engine::RealtimeLens;
+    LensChoice choice;
+    choice.cats_eye = 0.5;
+    const auto model = kernel::make_lens(choice, {{50, 36, 1.4, 2}, 64, 48});
+    const engine::RealtimeZones zones = engine::realtime_zones(**model, 64, 48);
+    ASSERT_EQ(zones.count(), 45u);
+    const RealtimeLens lens = engine::realtime_lens(**model, zones, 20, 20, 24);
+    const int kernels = 2 * LampKernels::kSteps;
+    for (int kernel = 0; kernel < kernels; ++kernel) {
+        double farthest = 0, reach = 0;
+        for (std::size_t zone = 0; zone < zones.count(); ++zone) {
+            const std::size_t end = lens.first_zone() + (zone + 1) * RealtimeLens::of_zone(24);
+            const Rgba head = lens.fours[end - RealtimeLens::kOfLamps + std::size_t(kernel)];
+            const int half = int(head.g);
+            auto cell = lens.fours.begin() + int(head.r);
+            for (int y = -half; y <= half; ++y)
+                for (int x = -half; x <= half; ++x, ++cell)
+                    if (cell->g > 0) farthest = std::max(farthest, std::hypot(x, y));
+            const double of_zone = std::sqrt(double(head.a));
+            EXPECT_LT(of_zone, half) << kernel;
+            EXPECT_TRUE(zone == 0 || of_zone == reach) << kernel << ", zone " << zone;
+            reach = of_zone;
+        }
+        EXPECT_NEAR(reach, farthest + std::sqrt(2.0), 1e-4) << kernel;
+    }
+}
+
 std::string said_of(bool plant) {
     const auto context = watched_context();
     if (!context) return "skipped";

@@ -20,6 +20,7 @@ vec2 zone_place(vec2 pixel, vec2 zones) { return clamp(at.zone_scale * pixel + a
 
 const float kMostLight = 60000;  // that cells hold
 const int kTile = 16;            // pixels
+const int kShadowSteps = 8;      // on the way of a lamp's light to a pixel
 const int kLayers = 4, kBackLight = 0, kBack = 1, kNearLight = 2, kNear = 3;  // of cells
 // Stored for the finest level only: signed radii of the cell's four pixels.
 const int kRadii = 4;
@@ -65,7 +66,7 @@ float with_mark(float radius, bool is_marked) {
 bool has_mark(float stored) { return (packHalf2x16(vec2(stored, 0)) & 1u) != 0u; }
 // smoothstep() between two constants, without its division.
 float ramp(float from, float to, float x) {
-    const float part = clamp((x - from) * (1 / (to - from)), 0.0, 1.0);
+    const float part = clamp(x * (1 / (to - from)) - from / (to - from), 0.0, 1.0);
     return part * part * (3 - 2 * part);
 }
 // The share of light at this radius that cells draw; the rest is blurred pixel by pixel.

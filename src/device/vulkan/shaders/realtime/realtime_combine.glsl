@@ -38,7 +38,7 @@ float of_each(float radius_px, float reach) {
 vec2 disc_of(float radius) {
     const float all = abs(radius);
     if (all <= 0.5) return vec2(radius < 0 ? -0.5 : 0.5, 1);
-    const float reach = max(all - 1 / (24 * all), 0.5);
+    const float reach = max(all - (1.0 / 24) / all, 0.5);
     return vec2(radius < 0 ? -reach : reach, all < kWholePx ? of_each(all, reach) : 0.0);
 }
 // Radii of the pixels that one invocation has read; widest_px and farthest_px are made of them.
@@ -75,7 +75,7 @@ void read_window() {
     if (max(local.x, local.y) < kSquare) inside[local.y * kSquare + local.x] = 0.5 - length(vec2(local.x - kRim, float(local.y - kRim) / at.aspect));
 }
 // Offsets of pixels that a disc reaches.
-int last_offset(float radius_px) { return min(int(ceil(max(radius_px, 0.5) + 0.5)) - 1, kRim); }
+int last_offset(float radius_px) { return min(int(ceil(max(radius_px, 0.5) - 0.5)), kRim); }
 
 // The nearest background in a direction from a pixel: farther than a near surface, and within the window. Nothing bright is
 // assumed to be hidden.
@@ -169,9 +169,10 @@ float reveal(int own, float radius) {
 // Adds the near part of a pixel: `area` of its lens, at most 1.
 void add_near(int own, float near_px, inout Fine sum) {
     const int far = last_offset(near_px);  // 0: what is in focus, a little before it
-    for (int y = -far; y <= far; ++y) {
-        int there = own + y * kAcross - far, i = (y + kRim) * kSquare + kRim - far;
-        for (const int last = there + 2 * far; there <= last; ++there, ++i) {
+    int there = own - far * (kAcross + 1), i = (kRim - far) * (kSquare + 1);
+    const int across = 2 * far + 1;
+    for (int y = -far; y <= far; ++y, there += kAcross - across, i += kSquare - across) {
+        for (const int end = there + across; there < end; ++there, ++i) {
             const vec2 disc = window_discs[there];
             const float area = disc.y * clamp(inside[i] - disc.x, 0.0, 1.0);
             if (area == 0) continue;
@@ -189,9 +190,10 @@ void add_back(int own, float radius, float back_px, inout Fine sum) {
     float back_area = 0;
     const vec2 opening = disc_of(max(radius, 0.0));
     const int far = min(last_offset(back_px), last_offset(max(at.aspect, 1.0) * radius));
-    for (int y = -far; y <= far; ++y) {
-        int there = own + y * kAcross - far, i = (y + kRim) * kSquare + kRim - far;
-        for (const int last = there + 2 * far; there <= last; ++there, ++i) {
+    int there = own - far * (kAcross + 1), i = (kRim - far) * (kSquare + 1);
+    const int across = 2 * far + 1;
+    for (int y = -far; y <= far; ++y, there += kAcross - across, i += kSquare - across) {
+        for (const int end = there + across; there < end; ++there, ++i) {
             const vec2 disc = window_discs[there];
             const float area = clamp(min(disc.x, opening.x) + inside[i], 0.0, 1.0) * max(disc.y, opening.y);
             if (area == 0) continue;
@@ -266,7 +268,7 @@ vec4 viewed(vec4 made, float radius, vec4 reaches, vec4 behind, vec4 before) {
     if (at.view == 2u) return vec4(behind.rgb, 1);
     if (at.view == 3u) return before;
     if (at.view == 4u) return vec4(0, 0, 0, 1);  // lamps are added
-    if (at.view == 5u) return vec4(reaches.x / at.most_px, max(reaches.y, reaches.z) / kWholePx, 0, 1);
+    if (at.view == 5u) return vec4(reaches.x / at.most_px, reaches.y / kWholePx, 0, 1);
     return made;
 }
 
@@ -278,7 +280,7 @@ void main() {
     float radius = radius_at(pixel);
     const float own_px = radius;
     const vec4 reaches = reach[tile.y * at.tiles.x + tile.x];
-    const bool has_near = reaches.w < -2, is_fine = max(reaches.y, reaches.z) > (has_near ? 0.0 : 0.5);
+    const bool has_near = reaches.z > 2, is_fine = reaches.y > (has_near ? 0.0 : 0.5);
     const int own = (int(gl_LocalInvocationID.y) + kRim) * kAcross + int(gl_LocalInvocationID.x) + kRim;
     Fine fine = Fine(vec4(0), vec4(0), 0, 0);
     float back_px = 0;
@@ -308,13 +310,18 @@ void main() {
             base = mix(base, back, is_known * min(blurred, 1 - fine.back_area));
         }
     }
-    const bool fills = area.x > 0 && is_known == 0 && own_px < 0 && blurred > 0.99;
-    const float covers = fills ? 1.0 : min(area.x, 1.0);
-    if (area.x > 0) near *= covers / area.x;
-    // Near light that pixels and cells both draw in part is one surface: the parts lie side by side.
-    const float free = 1 - covers, open = min(free + min(area.y, covers), fine.area > 0 ? free / fine.area : 1.0);
-    near += open * fine.near;
-    vec4 made = near + (free - open * fine.area) * base;
+    float covers = min(area.x, 1.0);
+    if (area.x > 0) {
+        if (is_known == 0 && own_px < 0 && blurred > 0.99) covers = 1;
+        near *= covers / area.x;
+    }
+    float free = 1 - covers;
+    if (fine.area > 0) {
+        // Near light that pixels and cells both draw in part is one surface: the parts lie side by side.
+        const float open = min(free + min(area.y, covers), free / fine.area);
+        near += open * fine.near, free -= open * fine.area;
+    }
+    vec4 made = near + free * base;
     if (at.view != 0u) made = viewed(made, own_px, reaches, base, near);
     if (at.view == 0u || at.view == 4u) add_all_lamps(pixel, tile, reaches.x, area.x > 0, 1 - fine.area, made);
     if (at.view == 0u && at.has_layer != 0u) {

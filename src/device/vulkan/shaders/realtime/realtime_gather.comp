@@ -27,7 +27,7 @@ struct Disc {
     vec2 middle, scale;
     float level;
     int tap, end, weights;  // its first tap, the one after its last, the weights of the first in front of focus
-    float per_px, most;     // weights in a pixel of radius; those of the disc's own radius
+    float per_px, least, most;  // weights in a pixel of radius; those of half a pixel and of the disc's radius, half a weight up
 };
 // Small discs take whole cells, wider ones a spiral of taps (engine/gather/realtime_plan.h).
 Disc disc_of(vec2 middle, float radius_px) {
@@ -36,15 +36,16 @@ Disc disc_of(vec2 middle, float radius_px) {
     if (radius_px <= grid_px) {
         const int count = int(lens[first_grid + int(4 * radius_px)].w);
         const float per_px = kMostShare / grid_px;
-        return Disc(middle * texel, grid_px * scale, 0, first_grid, first_grid + count, grid_weight, per_px, per_px * radius_px);
+        return Disc(middle * texel, grid_px * scale, 0, first_grid, first_grid + count, grid_weight, per_px, 0.5 * per_px + 0.5, per_px * radius_px + 0.5);
     }
     const float level = max(0.0, log2(0.5 * radius_px * tap_side));
-    return Disc(middle * texel, radius_px * scale, level, first_tap, first_tap + taps, first_weight, kMostShare / radius_px, kMostShare);
+    const float per_px = kMostShare / radius_px;
+    return Disc(middle * texel, radius_px * scale, level, first_tap, first_tap + taps, first_weight, per_px, 0.5 * per_px + 0.5, kMostShare + 0.5);
 }
 // Weight of a tap for light of this radius: the lens's shape, normalised so that a plane keeps its light. first_of: where
 // the tap's weights begin.
 vec4 weight_of(Disc disc, int first_of, float radius_px) {
-    return lens[first_of + int(clamp(radius_px * disc.per_px, 0.5 * disc.per_px, disc.most) + 0.5)];
+    return lens[first_of + int(clamp(radius_px * disc.per_px + 0.5, disc.least, disc.most))];
 }
 
 // Mean radius of the light in front of focus in a cell, and behind it.
@@ -82,7 +83,6 @@ Sum back_over(vec2 middle, float radius, float own_px, int which) {
     for (int i = disc.tap; i < disc.end; ++i, first_of += kShares) {
         const vec2 place = disc.middle + lens[i].xy * disc.scale;
         const vec4 there = textureLod(cells, vec3(place, kBack), disc.level);
-        if (there.x == 0) continue;
         const vec4 light = textureLod(cells, vec3(place, kBackLight), disc.level);
         const float reaches = back_radius(there), ratio = reaches * per_own;
         float counts = 1;
@@ -106,7 +106,6 @@ Sum back_over(vec2 middle, float radius, float own_px, int which) {
             sum.more_area += (1 - counts) * w.a * there.x;
         }
         if (counts < 1) w *= counts;
-        if (w.a == 0) continue;
         sum.light += w * light;
         sum.area += w.a * there.x;
     }

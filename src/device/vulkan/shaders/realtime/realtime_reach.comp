@@ -5,9 +5,9 @@
 layout(local_size_x = 64) in;
 
 // Largest radius in front of focus; largest radius of pixels blurred pixel by pixel, behind focus (0.25: in focus) and in
-// front of it; the smallest signed radius.
+// front of it; the smallest signed radius that may hide a lamp behind focus (realtime_sprites.glsl: seen).
 layout(std430, binding = 0) readonly buffer Tiles { vec4 tiles[]; };
-layout(std430, binding = 1) writeonly buffer Reach { vec4 reach[]; };  // the same, as it reaches a tile; the last of the tile alone
+layout(std430, binding = 1) writeonly buffer Reach { vec4 reach[]; };  // the first two as they reach a tile, the others of the tile alone
 layout(std430, binding = 2) readonly buffer Lamps { uvec4 lamps[]; };
 layout(std430, binding = 3) writeonly buffer Boxes { ivec4 boxes[]; };  // first and last column and row; empty: last < first
 layout(std430, binding = 4) writeonly buffer Kept { uvec4 kept[]; };    // the lamps that are left, as in `lamps`
@@ -101,7 +101,7 @@ void main() {
             all += uint(bitCount(lamp.x) + bitCount(lamp.y));
         }
     boxes[own] = box;
-    reach[own] = vec4(most, fine, tiles[own].w);
+    reach[own] = vec4(most, max(fine.x, fine.y), tiles[own].xw);
     const uvec4 lamp = lamps[own];
     kept[own] = uvec4(all > kMostLamps ? thinned(tile, lamp.xy, all) : lamp.xy, lamp.zw);
 }

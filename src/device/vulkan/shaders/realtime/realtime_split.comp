@@ -72,11 +72,12 @@ float share_of(vec4 near, vec4 light, vec4 behind) {
 
 // Reads the window. All invocations of the group call it together.
 void read_window() {
-    const ivec2 tile = kTile * ivec2(gl_WorkGroupID.xy), cell = 2 * ivec2(gl_LocalInvocationID.xy);
-    for (int i = 0; i < 4; ++i) {
-        const ivec2 place = cell + ivec2(i & 1, i >> 1), pixel = min(tile + place, at.size - 1);
-        window[(place.y + 1) * kAcross + place.x + 1] = radius_of(texelFetch(depths, pixel, 0).r);
-    }
+    const ivec2 tile = kTile * ivec2(gl_WorkGroupID.xy), cell = 2 * ivec2(gl_LocalInvocationID.xy), last = at.size - 1;
+    for (int y = 0; y < 2; ++y)
+        for (int x = 0; x < 2; ++x) {
+            const ivec2 place = cell + ivec2(x, y);
+            window[(place.y + 1) * kAcross + place.x + 1] = radius_of(texelFetch(depths, min(tile + place, last), 0).r);
+        }
     const int kSide = kAcross - 1;  // each side of the rim without its last pixel
     for (int i = int(gl_LocalInvocationIndex); i < 4 * kSide; i += 64) {
         const int side = i / kSide, along = i - side * kSide, back = side < 2 ? along : kSide - along;
@@ -172,7 +173,7 @@ void main() {
         }
         // A quarter of a pixel marks tiles with light in focus, which `combine` may continue behind near surfaces.
         const float behind_px = abs(radius) > 0.5 ? pixelwise(radius) : 0.25;
-        range = max(range, vec4(-radius, behind_px, pixelwise(-radius), -radius));
+        range = max(range, vec4(-radius, behind_px, pixelwise(-radius), radius < -at.most_px * (1.0 / float(kShadowSteps)) ? -at.most_px : -radius));
         if (radius < -2) {
             const float near = 0.25 * drawn;
             near_light += near * light, near_area += near;

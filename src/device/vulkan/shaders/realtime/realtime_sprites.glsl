@@ -11,16 +11,18 @@ const float kStepAt = 0.5;  // pixels: the radius of the first kernel; the next 
 const int kLampsAtOnce = 32;
 struct Lamp {
     vec2 from;       // pixels
-    float radius;    // signed
-    float least_px;  // no radius between the lamp's tile and the group's is smaller
-    vec4 to_cells;   // scale and offset from pixels to the cells of its kernel
+    float radius, per_radius;  // signed; 1 / its size
+    float last;      // step of seen() after which no radius between the lamp's tile and the group's hides it
+    vec4 to_cells;   // scale and offset from pixels to the cells of its kernel, from the middle one
     vec3 light;      // times the size of a kernel's cell
-    int first, side;  // of its kernel in the zone above it and left of it; side 0: it reaches no pixel of the group
-    vec2 zone_share;       // of the next column and row of zones
+    float reach;     // squared distance from the middle without light, cells
+    int middle, side;  // the middle cell of its kernel in the zone above it and left of it
+    vec2 zone_share;  // of the next column and row of zones
 };
 shared Lamp group_lamps[kLampsAtOnce];
+shared uint reaching;  // those that reach a pixel of the group: a bit for each
 
-Lamp lamp_of_cell(ivec2 cell, float least_px) {
+Lamp lamp_of_cell(ivec2 cell, float least_px, out bool reaches) {
     const CellLamp lamp = unpacked_lamp(cell_lamps[lamp_at(cell)]);
     const float radius = max(abs(lamp.radius), kStepAt);
     // The nearest kernel keeps the light of small discs; the next larger one keeps the rims of large ones sharp.
@@ -33,28 +35,30 @@ Lamp lamp_of_cell(ivec2 cell, float least_px) {
     const vec4 kept = lens[next_zone - kOfLamps + step_of + (lamp.radius < 0 ? 0 : kLampSteps)];
     const float cells_per_px = kept.z / radius;
     const vec2 scale = vec2(cells_per_px, cells_per_px / at.aspect);
-    const vec2 gap = abs(vec2(8 * ivec2(gl_WorkGroupID.xy) + 4) - from) - 3.5;
-    const bool reaches = max(gap.x, gap.y / at.aspect) * cells_per_px <= kept.y;
+    const vec2 gap = scale * max(abs(vec2(8 * ivec2(gl_WorkGroupID.xy) + 4) - from) - 3.5, vec2(0));
+    reaches = dot(gap, gap) < kept.w;
+    const int half_side = int(kept.y), side = 2 * half_side + 1;
     const vec3 light = lamp.factor * cells_per_px * cells_per_px / at.aspect * lamp.light;
-    return Lamp(from, lamp.radius, least_px, vec4(scale, kept.y - from * scale), light, int(kept.x), reaches ? 2 * int(kept.y) + 1 : 0, zone_at - vec2(zone));
+    const float per_radius = 1 / abs(lamp.radius), steps = float(kShadowSteps);
+    const float last = least_px < 0.95 * lamp.radius ? min(steps * (1 - least_px * per_radius) + 1, steps) : 0.0;
+    return Lamp(from, lamp.radius, per_radius, last, vec4(scale, -from * scale), light, kept.w, int(kept.x) + half_side * (side + 1), side, zone_at - vec2(zone));
 }
 
-vec4 cell_at(int first, int side, vec2 share) {
-    return mix(mix(lens[first], lens[first + 1], share.x), mix(lens[first + side], lens[first + side + 1], share.x), share.y);
+vec3 cell_at(int first, int side, vec2 share) {
+    return mix(mix(lens[first].rgb, lens[first + 1].rgb, share.x), mix(lens[first + side].rgb, lens[first + side + 1].rgb, share.x), share.y);
 }
 // The share of its light that a lamp sends to a pixel, interpolated between zones of the lens.
-vec4 kernel_at(int lamp, vec2 pixel) {
-    const int side = group_lamps[lamp].side;
+vec3 kernel_at(int lamp, vec2 pixel) {
     const vec4 to_cells = group_lamps[lamp].to_cells;
     const vec2 place = pixel * to_cells.xy + to_cells.zw;
-    if (min(place.x, place.y) < 0 || max(place.x, place.y) >= float(side - 1)) return vec4(0);
-    const ivec2 low = ivec2(place);
-    const vec2 share = place - vec2(low);
-    const int first = group_lamps[lamp].first + low.y * side + low.x;
+    if (dot(place, place) >= group_lamps[lamp].reach) return vec3(0);
+    const int side = group_lamps[lamp].side;
+    const vec2 low = floor(place), share = place - low;
+    const int first = group_lamps[lamp].middle + int(low.y) * side + int(low.x);
     const vec2 zone_share = group_lamps[lamp].zone_share;
     if (zone_share == vec2(0)) return cell_at(first, side, share);
     const int of_zone = size_of_zone(lens[0]);
-    vec4 sum = (1 - zone_share.x) * (1 - zone_share.y) * cell_at(first, side, share);
+    vec3 sum = (1 - zone_share.x) * (1 - zone_share.y) * cell_at(first, side, share);
     if (zone_share.x > 0) sum += zone_share.x * (1 - zone_share.y) * cell_at(first + of_zone, side, share);
     if (zone_share.y > 0) {
         const int below = first + of_zone * int(lens[0].z);
@@ -67,65 +71,68 @@ vec4 kernel_at(int lamp, vec2 pixel) {
 // Loops of steps are not unrolled, because more registers would leave fewer groups in flight.
 
 // Visible share of a lamp behind focus from a pixel: on its way to (x, y) light has its radius at `from` and
-// none at `to`; an occluder with the remaining radius stops it there.
-float seen(vec2 from, vec2 to, float radius) {
-    const int kSteps = 8;
-    const vec2 step_cells = (to - from) * (0.5 / float(kSteps));
-    const float per_radius = 1 / radius, hides_px = 0.95 * radius;
+// none at `to`; an occluder with the remaining radius stops it there. An occluder of radius -radius / kShadowSteps or less
+// stops nothing, and `split` leaves it out of the smallest radii of tiles. last: the last step at which anything may hide it.
+float seen(vec2 from, vec2 to, float radius, float per_radius, float last) {
+    const vec2 step_cells = (to - from) * (0.5 / float(kShadowSteps));
+    const float step_px = radius / float(kShadowSteps);
     vec2 place = 0.5 * from;
-    float hidden = 0, way = 0;
-    [[dont_unroll]] for (int i = 1; i <= kSteps; ++i) {
-        place += step_cells, way += 1;
+    float hidden = 0, hides_px = 0.95 * radius;  // radii above it hide nothing at this step
+    [[dont_unroll]] for (float way = 1; way <= last; hides_px = radius - way * step_px, ++way) {
+        place += step_cells;
         const ivec2 cell = ivec2(place);
         const vec4 radii = texelFetch(cells, ivec3(cell, kRadii), 0);
         if (min(min(radii.x, radii.y), min(radii.z, radii.w)) > hides_px) continue;  // most cells hide nothing
         const ivec2 pixel = ivec2(2 * place);
         const float there = radii[(pixel.y & 1) << 1 | pixel.x & 1], nearer = 1 - there * per_radius;
         if (nearer < 0.05 || has_mark(there)) continue;
-        hidden += ramp(0.05, 0.2, nearer) * max(0.0, 1 - abs(float(kSteps) * nearer - way));
+        hidden += ramp(0.05, 0.2, nearer) * max(0.0, 1 - abs(float(kShadowSteps) * nearer - way));
+        if (hidden >= 1) return 0;
     }
-    return 1 - min(hidden, 1.0);
+    return 1 - hidden;
 }
 
 // Share of a lamp's light that occluders in front of focus let through; their radii are at most near_px. The light of a
 // lamp behind focus continues past the pixel, to the place where it would have the occluder's radius. The light of a lamp
 // in front of focus passes nearer occluders on the lamp's other side. One loop serves both lamps, because drivers that
 // compute on the CPU run both sides of a branch.
-float let_through(vec2 from, vec2 to, float radius, float near_px) {
-    const int kSteps = 8;
-    const bool is_near = radius < 0;
-    const float per_radius = 1 / abs(radius), begin = is_near ? 1.0 : 0.0, step_of = (near_px * per_radius - begin) / float(kSteps);
+float let_through(vec2 from, vec2 to, bool is_near, float per_radius, float near_px) {
+    const float begin = is_near ? 1.0 : 0.0, step_of = (near_px * per_radius - begin) / float(kShadowSteps);
     if (step_of <= 0) return 1;
     const vec2 step_px = step_of * (is_near ? from - to : to - from), step_at = step_px * (0.5 * texel);
     const float level = clamp(0.5 * log2(0.25 * dot(step_px, step_px)), 0.0, 3.0), per_step = 1 / step_of;
     vec2 place = (is_near ? from : to) * (0.5 * texel);
-    float hidden = 0, steps = begin * per_step;
-    [[dont_unroll]] for (int i = 1; i <= kSteps; ++i) {
-        place += step_at, steps += 1;
+    float hidden = 0;
+    [[dont_unroll]] for (float way = 1; way <= float(kShadowSteps); ++way) {
+        place += step_at;
         const vec3 near = textureLod(cells, vec3(place, kNear), level).xyz;
         if (near.x <= 1e-3) continue;
-        const float there = near.y * per_radius / max(near.z, 1e-7), covers = 1 - abs(there * per_step - steps);
+        const float nearer = near.y * per_radius / max(near.z, 1e-7) - begin, covers = 1 - abs(nearer * per_step - way);
         if (covers <= 0) continue;
-        hidden += near.x * covers * (is_near ? ramp(0.2, 0.5, there - begin) : 1.0);  // a lamp is not cut by what it hangs on
+        hidden += near.x * covers * (is_near ? ramp(0.2, 0.5, nearer) : 1.0);  // a lamp is not cut by what it hangs on
+        if (hidden >= 1) return 0;
     }
-    return 1 - min(hidden, 1.0);
+    return 1 - hidden;
 }
 
-// Adds the first lamps of a group to a pixel. open: the share of those behind focus; has_near: near light reaches the pixel.
-void add_lamps(uint count, vec2 pixel, float near_px, bool has_near, float open, inout vec4 made) {
-    for (int i = 0; i < int(count); ++i) {
-        if (group_lamps[i].side == 0) continue;
-        const vec4 share = kernel_at(i, pixel);
-        if (share.a == 0) continue;
+// Adds the lamps of a group that reach it to a pixel. open: the share of those behind focus; has_near: near light reaches the
+// pixel.
+void add_lamps(vec2 pixel, float near_px, bool has_near, float open, inout vec4 made) {
+    for (uint left = reaching; left != 0u; left &= left - 1u) {
+        const int i = findLSB(left);
+        const vec3 share = kernel_at(i, pixel);
+        if (share.r + share.g + share.b == 0) continue;
         const float radius = group_lamps[i].radius;
         if (radius > 0 && open == 0) continue;
         const vec2 from = group_lamps[i].from;
-        float shows = has_near || radius < 0 ? let_through(from, pixel, radius, near_px) : 1.0;
+        const float per_radius = group_lamps[i].per_radius;
+        float shows = has_near || radius < 0 ? let_through(from, pixel, radius < 0, per_radius, near_px) : 1.0;
         if (radius > 0) {
             shows *= open;
-            if (group_lamps[i].least_px < 0.95 * radius) shows *= seen(from, pixel, radius);  // else nothing is nearer
+            const float last = group_lamps[i].last;
+            if (shows > 0 && last > 0) shows *= seen(from, pixel, radius, per_radius, last);  // else nothing is nearer
         }
-        made.rgb += shows * share.rgb * group_lamps[i].light;
+        made.rgb += shows * share * group_lamps[i].light;
     }
 }
 
@@ -189,14 +196,16 @@ void add_all_lamps(ivec2 pixel, ivec2 own_tile, float near_px, bool has_near, fl
                 const uvec2 place = uvec2(8 * tile + ivec2(cell % 8, cell / 8));
                 if (number >= begin) lamps_found[number - begin] = uvec2(place.x | place.y << 16, least_px);
             }
+            if (own == 0u) reaching = 0u;
             barrier();
-            const uint found = min(all - begin, uint(kLampsAtOnce));
-            if (own < found) {
+            if (own < min(all - begin, uint(kLampsAtOnce))) {
                 const uvec2 lamp = lamps_found[own];
-                group_lamps[own] = lamp_of_cell(ivec2(lamp.x & 0xffffu, lamp.x >> 16), uintBitsToFloat(lamp.y));
+                bool reaches;
+                group_lamps[own] = lamp_of_cell(ivec2(lamp.x & 0xffffu, lamp.x >> 16), uintBitsToFloat(lamp.y), reaches);
+                if (reaches) atomicOr(reaching, 1u << own);
             }
             barrier();
-            add_lamps(found, vec2(pixel) + 0.5, near_px, has_near, open, made);
+            add_lamps(vec2(pixel) + 0.5, near_px, has_near, open, made);
             barrier();
         }
     }
