@@ -37,7 +37,12 @@ int set_persistent(void* effect, const char*, const char*, const char* format, .
     return status;
 }
 
-int clear_persistent(void* effect) { return effect ? ofx::kOk : ofx::kBadHandle; }
+int clear_persistent(void* effect) {
+    if (!effect) return ofx::kBadHandle;
+    const std::lock_guard lock(counts.mutex);
+    counts.last_message.clear();
+    return ofx::kOk;
+}
 
 int memory_alloc(void*, std::size_t bytes, void** memory) {
     if (!memory) return ofx::kBadHandle;

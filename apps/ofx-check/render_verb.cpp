@@ -129,6 +129,8 @@ std::string render_picture(const Setup& setup, const RenderJob& job) {
     Rendered rendered = stage.render(*effect, request);
     if (job.is_unpremultiplied) premultiply(rendered.picture);
     std::string problem;
+    if (rendered.fine() && !counts.last_message.empty())
+        std::fprintf(stderr, "the plug-in says: %s\n", counts.last_message.c_str());
     if (!rendered.fine())
         problem = "status " + std::to_string(rendered.status) + ": " +
                   (counts.last_message.empty() ? "no message" : counts.last_message);

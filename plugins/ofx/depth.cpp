@@ -61,7 +61,8 @@ bool is_in_alpha(const LentImage& depth) {
 // Values as rendered.
 struct Stored {
     Plane depth;
-    bool is_share = false;  // of whole numbers
+    bool is_share = false;   // of whole numbers
+    std::string doubt = {};  // as in DepthOfFrame
 };
 
 std::string size_text(const ofx::RectI& r) {
@@ -100,7 +101,7 @@ Result<Stored> of_file(const DepthQuestion& q) {
     if (file->is_share)
         if (const Status fine = check_depth_codes(settings_of(v), v.depth_unit_m != 1); !fine)
             return refused(options.depth_file + ": " + fine.error().message);
-    return Stored{std::move(file->depth), file->is_share};
+    return Stored{std::move(file->depth), file->is_share, file->is_colour ? file->detected.front() : ""};
 }
 
 Result<Stored> stored_depth(const DepthQuestion& q) {
@@ -131,7 +132,7 @@ Result<DepthOfFrame> in_metres_or_radii(const DepthQuestion& q, Stored stored) {
     if (radii)  // of the frame at full size
         for (std::size_t i = 0; i < depth.size(); ++i)
             depth.pixels()[i] = float(depth.pixels()[i] * q.scale.x);
-    return DepthOfFrame{std::move(depth), radii};
+    return DepthOfFrame{std::move(depth), radii, std::move(stored.doubt)};
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include "images.h"
 #include "params.h"
 
+#include <string>
+
 namespace petzval::plugin {
 
 // The names of the clips.
@@ -19,6 +21,7 @@ inline constexpr const char* kMaskClip = "Mask";
 struct DepthOfFrame {
     Plane values;
     bool are_radii = false;
+    std::string doubt;  // one line if no channel of the depth file is named like depth
 };
 
 struct DepthQuestion {

@@ -113,7 +113,14 @@ void show_error(ofx::Effect* effect, const std::string& sentence) {
     if (show) show(effect, ofx::kMessageError, "", "%s", sentence.c_str());
 }
 
-void clear_error(ofx::Effect* effect) {
+// Without persistent messages it would open a window for each frame.
+void show_warning(ofx::Effect* effect, const std::string& sentence) {
+    const ofx::MessageSuite* messages = the_suites.message;
+    if (the_suites.persistent_messages && effect && messages->set_persistent)
+        messages->set_persistent(effect, ofx::kMessageWarning, "", "%s", sentence.c_str());
+}
+
+void clear_message(ofx::Effect* effect) {
     const ofx::MessageSuite* messages = the_suites.message;
     if (the_suites.persistent_messages && effect && messages->clear_persistent)
         messages->clear_persistent(effect);

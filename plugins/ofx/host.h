@@ -55,6 +55,7 @@ Properties properties_of(ofx::Effect* effect);
 
 // The message that the user sees on the effect, until it is cleared.
 void show_error(ofx::Effect* effect, const std::string& sentence);
-void clear_error(ofx::Effect* effect);
+void show_warning(ofx::Effect* effect, const std::string& sentence);
+void clear_message(ofx::Effect* effect);
 
 }  // namespace petzval::plugin

@@ -180,6 +180,7 @@ inline constexpr const char* kNormalised = "OfxParamCoordinatesNormalised";
 
 // --- "Message Suite"
 inline constexpr const char* kMessageError = "OfxMessageError";
+inline constexpr const char* kMessageWarning = "OfxMessageWarning";
 
 // --- Types of objects: values of kType
 inline constexpr const char* kTypeHost = "OfxTypeImageEffectHost";

@@ -229,8 +229,8 @@ int status_of(petzval_status status) {
     return status == PETZVAL_OUT_OF_MEMORY ? ofx::kMemory : ofx::kFailed;
 }
 
-// The blurred pixels of `part`, written into the output.
-int make_part(const Job& job, const ofx::RectI& part) {
+// The blurred pixels of `part`, written into the output. doubt: DepthOfFrame::doubt.
+int make_part(const Job& job, const ofx::RectI& part, std::string& doubt) {
     const auto failed = [&](const std::string& why, int status) {
         show_error(job.effect, in_labels(why));
         return status;
@@ -241,6 +241,7 @@ int make_part(const Job& job, const ofx::RectI& part) {
     Scene scene;
     if (const Status taken = take_scene(job, values, frame, scene); !taken)
         return failed(taken.error().message, ofx::kFailed);
+    doubt = scene.depth.doubt;
     const auto look = look_of(values, job.draft && values.draft_when_interactive);
     if (!look) return failed(look.error().message, ofx::kFailed);
     petzval_control control{};
@@ -297,11 +298,13 @@ int render(ofx::Effect* effect, const Properties& in) {
     job.output = &output;
     const ofx::RectI part = source.is_there() ? intersected(job.window, source.bounds()) : ofx::RectI{};
     int status = ofx::kOk;
+    std::string doubt;
     if (!is_empty(part) && job.no_blur) copy_source(job, part);
-    if (!is_empty(part) && !job.no_blur) status = make_part(job, part);
+    if (!is_empty(part) && !job.no_blur) status = make_part(job, part, doubt);
     if (status != ofx::kOk) return status;
     clear_beyond(job, part);
-    clear_error(effect);
+    clear_message(effect);
+    if (!doubt.empty()) show_warning(effect, doubt);
     return ofx::kOk;
 }
 

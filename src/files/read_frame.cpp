@@ -129,6 +129,7 @@ struct DepthOfExr {
     Plane depth;
     Rect window, display;
     std::string line;
+    bool is_colour = false;
 };
 
 // A file of deep samples only: the depth of their front view.
@@ -153,7 +154,7 @@ Result<DepthOfExr> depth_of_exr(const std::shared_ptr<const InputFile>& file, co
     Result<Plane> depth = read_depth(*exr, *choice);
     if (!depth) return depth.error();
     return DepthOfExr{std::move(*depth), parts[choice->part].data_window, exr->layout.display_window,
-                      choice->line};
+                      choice->line, choice->is_colour};
 }
 
 Status take_exr(const std::shared_ptr<const InputFile>& file, const ReadOptions& options, const Place& place,
@@ -162,6 +163,7 @@ Status take_exr(const std::shared_ptr<const InputFile>& file, const ReadOptions&
     if (!exr) return exr.error();
     const Rect& display = place.display_window;
     const std::string other_size = resampled(exr->display, display, false);
+    into.is_colour = exr->is_colour;
     into.detected.push_back(exr->line + ", in " + printable(file->path()) + other_size);
     // Display windows lie on each other, wherever they begin.
     const int right = display.x0 - exr->display.x0, down = display.y0 - exr->display.y0;

@@ -185,6 +185,18 @@ class Plugin(unittest.TestCase):
                             ["--depth-kind", kind, "--depth-range", f"0,{end}"])
         self.same_depth("shares.png", {"depthFile": "shares.png", "depthUnit": 25.5}, ["--depth-kind", "planar", "--unit-scale", "25.5"])
 
+    def test_a_depth_file_without_depth_says_what_it_looked_for(self):
+        depth = self.depth_of(lambda z, y: z)
+        pictures.write_exr(f"{self.folder}/grey.exr", {c: depth for c in "RGB"})
+        self.same_depth("grey.exr", {"depthFile": "grey.exr"}, [])
+        grey, named = (self.render("host.exr", {**PARAMS, "focusDistance": 4.8, "depthFile": name}, "--clip", "Source=sharp.exr").stderr
+                       for name in ("grey.exr", "night.exr"))
+        self.assertEqual(named, "")
+        self.assertRegex(grey, r"says: depth: R: the depth file has no depth channel \(looked for Z, .*\), .* in grey.exr$")
+        line = grey.strip().removeprefix("the plug-in says: ")
+        self.assertIn(line, self.command(PETZVAL, "defocus", "sharp.exr", "--depth", "grey.exr", "-o", "line.exr", *CAMERA,
+                                         "--focus", "4.8m", "--overwrite").stderr)
+
     def test_a_depth_file_of_another_size_is_stretched_as_on_the_command_line(self):
         self.write_shares()
         self.same_depth("half.png", {"depthFile": "half.png", "depthKind": "normalized", "depthFar": 25.5},

@@ -25,6 +25,7 @@ struct DepthChoice {
     std::string back;                     // ZBack of a deep part
     std::array<std::string, 3> position;  // instead of channel: x, y, z of a world position
     std::string line;
+    bool is_colour = false;  // as DepthOfFile::is_colour
 
     bool is_position() const { return !position[2].empty(); }
 };

@@ -26,6 +26,7 @@ struct Pattern {
     const char* why;
     bool (*matches)(const Candidate& c, bool layer_of_colour);
 };
+constexpr const char* kLookedFor = "Z, depth.Z, ….Depth.Z, VRayZDepth, depth.R";  // for messages
 constexpr Pattern kPatterns[] = {
     {"Z of the colour's own layer", [](const Candidate& c, bool own) { return own && c.base == "z"; }},
     {"plain Z", [](const Candidate& c, bool) { return c.channel->layer.empty() && c.base == "z"; }},
@@ -203,9 +204,12 @@ std::optional<DepthChoice> of_depth_file(const Layout& layout) {
         }
     }
     if (count == 1) return choice_of(layout, only_part, *only, "the only channel of the depth file");
-    if (red)
-        return choice_of(layout, red_part, *red, "the depth file has colour channels, the first was taken");
-    return std::nullopt;
+    if (!red) return std::nullopt;
+    DepthChoice choice = choice_of(layout, red_part, *red,
+                                   "the depth file has no depth channel (looked for " +
+                                       std::string(kLookedFor) + "), its first colour channel was taken");
+    choice.is_colour = true;
+    return choice;
 }
 
 }  // namespace
@@ -224,10 +228,10 @@ Result<DepthChoice> choose_depth(const std::string& path, const Layout& layout, 
                 return invalid_file(
                     path, "has no depth channel but mist, which is not a distance; read.depth_channel " +
                               printable(c.name) + " depth.kind mist depth.range START,END reads it as depth");
-    return invalid_file(path,
-                        "has no depth channel (looked for Z, depth.Z, ….Depth.Z, VRayZDepth, depth.R, P); "
-                        "name one with read.depth_channel or a file with read.depth_file; its channels are " +
-                            listed(channel_names(layout)));
+    return invalid_file(
+        path, "has no depth channel (looked for " + std::string(kLookedFor) +
+                  ", P); name one with read.depth_channel or a file with read.depth_file; its channels are " +
+                  listed(channel_names(layout)));
 }
 
 }  // namespace petzval
