@@ -176,6 +176,14 @@ def push_block(reflection):
     return members
 
 
+def page_of_kit():
+    """The page as it stands beside the programs: links to other files name their paths in the sources instead."""
+    def named(link):
+        path = (PAGE.parent / link[2]).resolve().relative_to(ROOT)
+        return link[1] if link[1] == str(path) else f"{link[1]} (`{path}`)"
+    return re.sub(r"\[([^\]]*)\]\(([^)#]+)(?:#[^)]*)?\)", named, PAGE.read_text())
+
+
 def write(out, program):
     shutil.rmtree(out, ignore_errors=True)
     made = out.parent / (out.name + "-made")
@@ -189,7 +197,7 @@ def write(out, program):
         kit["push"] = push_block(reflection)
         tables += table(step, rows)
         told += f"| `{step}` | {said} |\n"
-    (out / "README.md").write_text(PAGE.read_text() + f"\n## WGSL of this kit\n\n| program | WGSL |\n|---|---|\n{told}\n## Bindings\n\n{tables}")
+    (out / "README.md").write_text(page_of_kit() + f"\n## WGSL of this kit\n\n| program | WGSL |\n|---|---|\n{told}\n## Bindings\n\n{tables}")
     (out / "kit.json").write_text(json.dumps(kit, indent=1) + "\n")
     if program:
         run(program, "lens", "buffer", "ideal", "-o", out / "lens.bin")

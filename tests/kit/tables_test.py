@@ -56,6 +56,7 @@ class Tables(unittest.TestCase):
 
     def test_the_page_names_each_resource_and_each_program(self):
         page = (KIT / "README.md").read_text()
+        self.assertNotRegex(page, r"\]\([^#]", "a link to a file that the kit does not have")
         resources = page[page.index("| resource |"):page.index("## The push block")]
         for step, program in PROGRAMS.items():
             self.assertIn(f"### {step}\n", page)
