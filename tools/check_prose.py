@@ -1,3 +1,4 @@
+#!/usr/bin/env python3
 """Reports prose that a native engineer would stop at; the rules are those of CONTRIBUTING.md, "Style".
 
 Usage: check_prose.py [--list | --tighten] [repository root]
