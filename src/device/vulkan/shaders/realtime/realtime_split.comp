@@ -132,7 +132,9 @@ float own_radius(ivec2 pixel, vec4 light, float radius) {
     const float share = share_of(near, light, behind);
     if (share == 0) return radius;
     if (!is_dark) return brightness(near) >= 1.5 * brightness(behind) && share * brightness(near) > 0.5 * own ? near_px : radius;
-    return share < 1 && near_px > -0.5 && near_px < kSharpPx && brightness(behind) < 4 * surroundings_at(pixel).x ? near_px : radius;
+    // Before wider discs the background's part of the pixel would stay as a sharp dot.
+    const float least_px = radius < kWholePx ? -kSharpPx : -0.5;
+    return share < 1 && near_px > least_px && near_px < kSharpPx && brightness(behind) < 4 * surroundings_at(pixel).x ? near_px : radius;
 }
 
 // Weight of this light in the mean radius over several depths. The square root of brightness keeps the sum of weights
