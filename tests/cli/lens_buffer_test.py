@@ -1,4 +1,5 @@
 """petzval lens buffer: a reader that knows docs/explain/shader-kit.md only finds every vector, and each adds up."""
+import math
 import struct
 import unittest
 
@@ -19,10 +20,14 @@ class LensBuffer(CommandLineTest):
         """(radius in cells, vectors of one kernel): those in front of focus, then those behind."""
         taps = self.all_taps(vectors)
         heads = 1 + taps + 2 * taps * SHARES + zone * (2 * taps * SHARES + 67800)
-        for first, half, radius, unused in vectors[heads:heads + 2 * STEPS]:
+        for first, half, radius, squared_reach in vectors[heads:heads + 2 * STEPS]:
             side = 2 * int(half) + 1
-            self.assertEqual(unused, 0)
-            yield radius, vectors[int(first):int(first) + side * side]
+            kernel = vectors[int(first):int(first) + side * side]
+            farthest = max(math.hypot(i % side - half, i // side - half) for i, light in enumerate(kernel) if any(light))
+            # A place at the reach lies between four cells without light, and all places within it in the square.
+            self.assertGreaterEqual(math.sqrt(squared_reach) + 1e-4, farthest + math.sqrt(2))
+            self.assertLess(math.sqrt(squared_reach), half)
+            yield radius, kernel
 
     def test_each_quality_has_its_taps_and_its_size(self):
         for quality, taps, all_taps in (("draft", 24, 168), ("standard", 48, 264), ("final", 127, 580)):
