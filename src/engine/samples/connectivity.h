@@ -10,9 +10,9 @@
 
 namespace petzval::engine {
 
-// A step of less than one pixel of radius always connects, because it hides almost nothing.
+// A narrow step always connects, because it hides almost nothing.
 inline bool always_connected(float coc_a_px, float coc_b_px) {
-    return std::abs(coc_b_px - coc_a_px) <= completion_model.step_px;
+    return std::abs(coc_b_px - coc_a_px) <= completion_model.step_between_px(coc_a_px, coc_b_px);
 }
 
 // True if two neighbouring samples belong to one surface. A larger step connects them only if it continues

@@ -105,7 +105,7 @@ TEST(Hidden, ASliverKeepsItsColourBesideAThirdSurface) {
     EXPECT_GT(m->far_colour.g, 0.5f);  // 0.02 where the clean pixels of the wall count, too
 }
 
-// A hair lies on a coat, before it by too little for a silhouette; a bright floor lies behind both.
+// A hair lies on a coat, before it by less than a pixel of radius; a bright floor lies behind both.
 TEST(Hidden, AHairOnACoatHasTheCoatBehindIt) {
     constexpr float kHairPx = -1.15f, kCoatPx = -0.4f, kFloorPx = 16;
     constexpr int kFloor = 20, kHair = 26;  // the row where the coat begins, and the hair's column
@@ -124,15 +124,15 @@ TEST(Hidden, AHairOnACoatHasTheCoatBehindIt) {
     for (int y = kFloor + 2; y < kFloor + 12; ++y) {
         const auto behind_hair = hidden.at(kHair, y), behind_coat = hidden.at(kHair + 3, y);
         ASSERT_FALSE(behind_hair.empty()) << y;
-        EXPECT_EQ(behind_hair.front().coc_px, kCoatPx) << y;
-        EXPECT_EQ(behind_hair.front().colour, grey(0.02f)) << y;
+        EXPECT_NEAR(behind_hair.front().coc_px, kCoatPx, 1e-3) << y;
+        EXPECT_NEAR(behind_hair.front().colour.g, 0.02f, 1e-3) << y;
         ASSERT_FALSE(behind_coat.empty()) << y;
         EXPECT_GT(behind_coat.front().coc_px, 8) << y << ": the floor";
     }
 }
 
-// Teeth showed along a branch where its step was too small for a silhouette and the next one was far away.
-TEST(Hidden, AHairOnACoatNeedsNoSilhouetteNearby) {
+// Teeth showed along a branch where its step was too small for a silhouette.
+TEST(Hidden, AHairOnACoatNeedsNoOtherSilhouette) {
     constexpr float kHairPx = -1.15f, kCoatPx = -0.4f;
     constexpr int kHair = 26;  // the hair's column
     Picture colour(kWidth, kHeight);
@@ -147,7 +147,7 @@ TEST(Hidden, AHairOnACoatNeedsNoSilhouetteNearby) {
         fill_hidden(picture, coc, connected, mixtures, kHairPx, kCoatPx, {}, one_thread());
     for (int y = 0; y < kHeight; ++y) {
         ASSERT_EQ(hidden.at(kHair, y).size(), 1) << y;
-        EXPECT_EQ(hidden.at(kHair, y).front().coc_px, kCoatPx) << y;
+        EXPECT_NEAR(hidden.at(kHair, y).front().coc_px, kCoatPx, 1e-3) << y;
         EXPECT_TRUE(hidden.at(kHair + 1, y).empty()) << y;
     }
 }

@@ -36,20 +36,16 @@ struct Band {
                 // (A silhouette's farther surface hides another one if it lies in front of focus itself.)
                 if (m && m->shows_far && m->far_coc_px > -completion_model.apart_px()) continue;
                 if ((m && !m->shows_far ? m->near_coc_px : coc(x, y)) > rule.hides_before_px) continue;
-                const auto beside = m ? std::nullopt : surfaces.beside(x, y);
-                if (!beside && (!m || m->shows_far) && !surfaces.may_hide(x, y)) continue;
+                if ((!m || m->shows_far) && !surfaces.may_hide(x, y)) continue;
                 Range& own = ranges(x, y - rows.y0);
-                const Range* const known = beside ? nullptr : answers.find(x, y, coc(x, y));
-                if (known) {
+                if (const Range* const known = answers.find(x, y, coc(x, y))) {
                     own = *known;
                     continue;
                 }
                 const std::size_t begin = hidden.size();
-                if (beside) hidden.push_back(*beside);
                 const float outline_px = surfaces.fill(x, y, hidden);
                 hidden.resize(std::min(hidden.size(), begin + HiddenLayers::kMost));
                 own = range(begin, hidden.size());
-                if (beside) continue;  // neighbours differ from this pixel
                 // Nothing found here; neighbours closer to the silhouette may still find
                 // something.
                 if (own.count == 0) continue;

@@ -62,7 +62,7 @@ std::array<Found, kHits> SurfaceSearch::look(const Start& from, std::size_t k) c
     const float* const start = &known_.radii()(x, y);
     std::array<Found, kHits> hits;
     std::size_t n = 0;
-    float behind = own + completion_model.step_px;
+    float behind = own;
     const unsigned width = unsigned(coc_.width()), height = unsigned(coc_.height());
     const Step *step = path.steps.data(), *const end = step + path.steps.size();
     while (step != end && step->t <= longest) {
@@ -72,7 +72,7 @@ std::array<Found, kHits> SurfaceSearch::look(const Start& from, std::size_t k) c
         // (A block that lies in front completely is skipped without reading its pixels, which saves
         // cache.)
         const float c = block.farthest > behind ? start[step->offset] : behind;
-        if (c > behind && c > own + step->t * own_per_px + completion_model.step_px) {
+        if (c > behind && c > own + step->t * own_per_px + completion_model.step_between_px(own, c)) {
             hits[n++] = {true, int(u), int(v), c, step->t, known_.slope(int(u), int(v))};
             // (A surface in front of focus hides another one, past whose edges the lens looks in turn.)
             longest = std::min(longest, step->t + std::max(0.0f, -c));

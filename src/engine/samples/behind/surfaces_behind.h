@@ -1,11 +1,9 @@
 // All surfaces behind a pixel, in the order in which they hide each other.
 #pragma once
 
-#include "engine/samples/behind/beside.h"
 #include "engine/samples/behind/near_silhouettes.h"
 #include "engine/samples/behind/witnesses.h"
 
-#include <optional>
 #include <vector>
 
 namespace petzval::engine {
@@ -19,7 +17,6 @@ public:
 
     const KnownSurfaces& known() const { return known_; }
     bool may_hide(int x, int y) const { return near_silhouettes_.may_hide(x, y, coc_(x, y)); }
-    std::optional<HiddenGuess> beside(int x, int y) const { return surface_beside(known_, coc_, x, y); }
     // Appends the surfaces behind (x, y), nearest first. If no lens ray that passes the occluder reaches a
     // surface, nothing is appended. Returns about how far the next hidden outline is, px.
     float fill(int x, int y, std::vector<HiddenGuess>& hidden) const;
