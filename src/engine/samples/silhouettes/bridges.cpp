@@ -18,10 +18,11 @@ namespace {
 constexpr int kTurns = 16;                                  // directions of a step
 constexpr int kLongestPx = 2 * SparseRows<Mixture>::kBand;  // of a gap; a strand's colour is known as far
 
+struct Pixel {
+    int x, y;
+};
+
 struct Gap {
-    struct Pixel {
-        int x, y;
-    };
     std::vector<Pixel> pixels;
     float from_px, to_px;  // radii of the strand at its ends
 };
@@ -70,17 +71,25 @@ private:
         const auto between = [&](int dx, int dy) { return far(dx, dy) && far(-dx, -dy); };
         return between(1, 0) || between(0, 1) || between(1, 1) || between(1, -1);
     }
+    // The nearest pixel from two on that shows a farther surface on one side (-1, 1) of a strand in direction
+    // k; that right beside the strand, where another strand is two away.
+    std::optional<Pixel> aside(int x, int y, int k, int side, float before_px) const {
+        for (const int apart : {2, 1}) {
+            const Pixel at{x + nearest_pixel(float(-side * apart) * step(k).y),
+                           y + nearest_pixel(float(side * apart) * step(k).x)};
+            if (coc_.rect().contains(at.x, at.y) && coc_(at.x, at.y) > before_px) return at;
+        }
+        return {};
+    }
     // The light that a strand in direction k takes from the surface behind it; nothing if that is not what
     // shows on both sides, changes there by itself as much, or is lit by a lamp.
     std::optional<Rgba> taken(int x, int y, int k, float before_px) const {
-        constexpr int kAside = 2;
-        const int dx = nearest_pixel(-kAside * step(k).y), dy = nearest_pixel(kAside * step(k).x);
-        if (!coc_.rect().contains(x - dx, y - dy) || !coc_.rect().contains(x + dx, y + dy)) return {};
-        if (coc_(x - dx, y - dy) <= before_px || coc_(x + dx, y + dy) <= before_px) return {};
-        for (const int side : {-1, 0, 1})
-            if (picture_.dim(x + side * dx, y + side * dy) != picture_.colour(x + side * dx, y + side * dy))
-                return {};
-        const Rgba a = comparable(picture_.dim(x - dx, y - dy)), b = comparable(picture_.dim(x + dx, y + dy));
+        const std::optional<Pixel> left = aside(x, y, k, -1, before_px), right = aside(x, y, k, 1, before_px);
+        if (!left || !right) return {};
+        for (const Pixel at : {*left, Pixel{x, y}, *right})
+            if (picture_.dim(at.x, at.y) != picture_.colour(at.x, at.y)) return {};
+        const Rgba a = comparable(picture_.dim(left->x, left->y));
+        const Rgba b = comparable(picture_.dim(right->x, right->y));
         const Rgba less = 0.5f * (a + b) - comparable(picture_.dim(x, y));
         if (distance2(a, b) >= dot(less, less)) return {};
         return less;

@@ -52,6 +52,17 @@ TEST(Bridges, FollowAStrandFromOneDepthToTheNext) {
     }
 }
 
+TEST(Bridges, FollowAStrandTwoPixelsFromAnother) {
+    Strand strand;
+    for (int x = 6; x < 30; ++x) {
+        strand.coc_px(x, Strand::row(x) + 2) = kNear;
+        strand.colour(x, Strand::row(x) + 2) = {0.05f, 0.03f, 0.02f, 1};
+    }
+    const Plane bridged = strand.bridged();
+    ASSERT_EQ(bridged.width(), kWidth);
+    for (int x = 11; x < 22; ++x) EXPECT_LT(Strand::least(bridged, x), kNear + 0.01f) << x;
+}
+
 TEST(Bridges, NeedTheStrandAtBothEnds) { EXPECT_EQ(Strand(21).bridged().width(), 0); }
 
 TEST(Bridges, NeedTheStrandsColourAllTheWay) {
