@@ -71,8 +71,8 @@ private:
         const auto between = [&](int dx, int dy) { return far(dx, dy) && far(-dx, -dy); };
         return between(1, 0) || between(0, 1) || between(1, 1) || between(1, -1);
     }
-    // A pixel that shows a farther surface on one side (-1, 1) of a strand in direction k: the one two away, or
-    // the one next to the strand where another strand is two away.
+    // A pixel that shows a farther surface on one side (-1, 1) of a strand in direction k: the one two away,
+    // or the one next to the strand where another strand is two away.
     std::optional<Pixel> aside(int x, int y, int k, int side, float before_px) const {
         for (const int apart : {2, 1}) {
             const Pixel at{x + nearest_pixel(float(-side * apart) * step(k).y),
