@@ -29,7 +29,7 @@ inline bool same_surface(const SurfaceLaw& law, float a_px, float b_px, float ap
     const float largest = std::max(std::abs(a_px), std::abs(b_px));
     return std::abs(a_px - b_px) <= law.step_px + law.relative * largest + law.slope * (apart_px - 1);
 }
-constexpr SurfaceLaw kConnected{0.8f};     // narrower steps are not taken apart (samples/connectivity.h)
+constexpr SurfaceLaw kConnected{0.8f};     // narrower steps of blurred surfaces are not taken apart
 constexpr SurfaceLaw kHiddenSheet{0.25f};  // of hidden samples: one of many leaves may lie beside any other
 constexpr SurfaceLaw kOneSquare{0.2f};     // drawn as one: what it shadows moves by a fraction of a tap
 constexpr float kJumpPx = 1;               // a step from pixel to pixel that a shadow shows

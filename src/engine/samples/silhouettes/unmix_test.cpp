@@ -26,5 +26,27 @@ TEST(Unmix, ASurfaceBetweenTwoOthersKeepsItsOwnColour) {
     EXPECT_EQ(beside_leaf->far_coc_px, 0);
 }
 
+// A bottle in focus before a wall slightly out of focus, with a filtered edge: its pixel would otherwise be
+// blurred with the wall. Two wide blurs that differ as much stay one surface.
+TEST(Unmix, AnEdgeInFocusIsSeparatedAtANarrowerStep) {
+    constexpr int kSize = 32, kEdge = 16;
+    const Rgba bottle{0.8f, 0.8f, 0.8f, 1}, wall{0.02f, 0.02f, 0.02f, 1};
+    const auto edge_of = [&](float bottle_px) {
+        Picture colour(kSize, kSize);
+        Plane coc(kSize, kSize);
+        for (int y = 0; y < kSize; ++y)
+            for (int x = 0; x < kSize; ++x) {
+                colour(x, y) = x < kEdge ? wall : x > kEdge ? bottle : 0.4f * bottle + 0.6f * wall;
+                coc(x, y) = x <= kEdge ? bottle_px + 0.65f : bottle_px;
+            }
+        const Mixtures mixtures =
+            unmix_silhouettes({colour, {}}, coc, connections(coc, one_thread()), one_thread());
+        const Mixture* const edge = mixtures.at(kEdge, kSize / 2);
+        return edge ? edge->far_colour.g : 1.0f;
+    };
+    EXPECT_NEAR(edge_of(0.37f), 0.02f, 0.02f);
+    EXPECT_EQ(edge_of(8), 1) << "not separated";
+}
+
 }  // namespace
 }  // namespace petzval::engine
