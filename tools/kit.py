@@ -14,6 +14,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SHADERS = ROOT / "src/device/vulkan/shaders"
 PAGE = ROOT / "docs/explain/shader-kit.md"
+LENS = ROOT / "src/engine/gather/realtime_plan.h"
 GLSL = ("-V", "--version", "450")
 SAMPLER, PUSH = 32, 64  # WGSL: a sampler is bound so far behind its texture; the push block as uniforms
 MSL_PUSH = 30           # the last buffer that Metal has
@@ -176,6 +177,17 @@ def push_block(reflection):
     return members
 
 
+def mark_of_lens():
+    """What a lens buffer for these programs has at byte 16."""
+    return "".join(re.findall(r"'(\w)'", re.search(r"kMark\{(.*)\};", LENS.read_text())[1]))
+
+
+def check_lens(path, mark):
+    found = path.read_bytes()[16:20]
+    if found != mark.encode():
+        sys.exit(f"kit: {path.name} is not for these programs: its bytes 16 to 19 are {found}, not {mark}")
+
+
 def page_of_kit():
     """The page as it stands beside the programs: links to other files name their paths in the sources instead."""
     def named(link):
@@ -189,7 +201,7 @@ def write(out, program):
     made = out.parent / (out.name + "-made")
     for folder in (made, *(out / name for name in ("glsl", "spirv", "hlsl", "msl", "wgsl"))):
         folder.mkdir(parents=True, exist_ok=True)
-    tables, told, kit = "", "", {"format": "petzval shader kit", "version": 1, "push": None, "programs": []}
+    tables, told, kit = "", "", {"format": "petzval shader kit", "version": 1, "lens_mark": mark_of_lens(), "push": None, "programs": []}
     for step in BOUND:
         reflection, said = translate(step, made, out)
         rows = bindings(step, reflection)
@@ -201,6 +213,7 @@ def write(out, program):
     (out / "kit.json").write_text(json.dumps(kit, indent=1) + "\n")
     if program:
         run(program, "lens", "buffer", "ideal", "-o", out / "lens.bin")
+        check_lens(out / "lens.bin", kit["lens_mark"])
     shutil.copy(ROOT / "LICENSE", out)
     shutil.rmtree(made)
 

@@ -130,6 +130,9 @@ PETZVAL_C_API petzval_status petzval_lens_buffer_bytes(const petzval_lens* lens,
  * square. mount and quality may be null. */
 PETZVAL_C_API petzval_status petzval_lens_buffer(const petzval_lens* lens, const petzval_lens_mount* mount,
                                                  const char* quality, void* buffer, size_t byte_count);
+/* Checks that these bytes, such as those of a file, are a whole lens buffer for the programs of this version:
+ * PETZVAL_OK, or PETZVAL_INVALID_FILE. */
+PETZVAL_C_API petzval_status petzval_check_lens_buffer(const void* buffer, size_t byte_count);
 
 #ifdef __cplusplus
 }

@@ -17,6 +17,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -154,5 +155,7 @@ PETZVAL_API Result<RealtimeLensBuffer> realtime_lens_buffer(const Lens& lens, co
 PETZVAL_API Result<std::size_t> realtime_lens_buffer_bytes(const Lens& lens, const Camera& camera,
                                                            int width_px, int height_px,
                                                            Quality quality = Quality::Standard);
+// Checks that these bytes are a whole lens buffer for the programs of this version. Errors: InvalidFile.
+PETZVAL_API Status check_lens_buffer(std::span<const std::byte> buffer);
 
 }  // namespace petzval

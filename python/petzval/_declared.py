@@ -359,6 +359,7 @@ PROTOTYPES = {
         POINTER(c_size_t)]),
     "petzval_lens_buffer": (c_int, [POINTER(petzval_lens), POINTER(petzval_lens_mount), c_char_p, c_void_p,
         c_size_t]),
+    "petzval_check_lens_buffer": (c_int, [c_void_p, c_size_t]),
     "petzval_defocus_stage": (c_int, [POINTER(petzval_session), c_char_p, POINTER(petzval_shot),
         POINTER(petzval_look), POINTER(petzval_control), POINTER(petzval_pixels),
         POINTER(POINTER(petzval_report))]),

@@ -141,6 +141,12 @@ class Lens:
             call("petzval_lens_buffer", self._handle, mount, chosen, floats, count)
         return floats.raw
 
+    @staticmethod
+    def check_buffer(buffer: bytes) -> None:
+        """Raises InvalidFile if these bytes, such as those of a lens.bin, are no buffer for the programs of this version."""
+        data = bytes(buffer)
+        call("petzval_check_lens_buffer", data, len(data))
+
     def __del__(self) -> None:
         handle = getattr(self, "_handle", None)
         if handle:

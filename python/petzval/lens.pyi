@@ -71,6 +71,10 @@ class Lens:
         docs/explain/shader-kit.md describes it. quality: "draft", "standard" or "final".
         """
 
+    @staticmethod
+    def check_buffer(buffer: bytes) -> None:
+        """Raises InvalidFile if these bytes, such as those of a lens.bin, are no buffer for the programs of this version."""
+
     def __repr__(self) -> str:
         ...
 

@@ -79,3 +79,11 @@ petzval_status petzval_lens_buffer(const petzval_lens* lens, const petzval_lens_
         return asked ? write_buffer(*lens, *asked, buffer, byte_count) : fail(asked.error());
     });
 }
+
+petzval_status petzval_check_lens_buffer(const void* buffer, size_t byte_count) {
+    if (!buffer) return missing("buffer");
+    return guarded([&] {
+        const Status done = check_lens_buffer({static_cast<const std::byte*>(buffer), byte_count});
+        return done ? PETZVAL_OK : fail(done.error());
+    });
+}

@@ -25,6 +25,20 @@ static void test_wrong_arguments_are_refused(const petzval_lens* lens, const pet
     expect(petzval_lens_buffer(lens, mount, NULL, NULL, bytes) == PETZVAL_INVALID_ARGUMENT, "no buffer");
 }
 
+static void test_only_its_own_buffers_are_taken(char* buffer, size_t bytes) {
+    char mark[4];
+    expect(petzval_check_lens_buffer(buffer, bytes) == PETZVAL_OK, "its own buffer");
+    expect(petzval_check_lens_buffer(buffer, bytes - 16) == PETZVAL_INVALID_FILE, "a cut buffer");
+    expect(petzval_check_lens_buffer("GIF89a", 6) == PETZVAL_INVALID_FILE, "another file");
+    expect(petzval_check_lens_buffer(NULL, bytes) == PETZVAL_INVALID_ARGUMENT, "no bytes");
+    memcpy(mark, buffer + 16, 4);
+    memset(buffer + 16, 0, 4);
+    expect(petzval_check_lens_buffer(buffer, bytes) == PETZVAL_INVALID_FILE &&
+               strstr(petzval_error_text(), "no mark PZL2 at byte 16"),
+           "a buffer of an older version");
+    memcpy(buffer + 16, mark, 4);
+}
+
 static void write_file(const char* path, const void* buffer, size_t bytes) {
     FILE* const file = fopen(path, "wb");
     expect(file && fwrite(buffer, 1, bytes, file) == bytes && fclose(file) == 0, "a file");
@@ -48,6 +62,7 @@ int main(int count, char** arguments) {
     buffer = malloc(bytes);
     test_wrong_arguments_are_refused(lens, &mount, buffer, bytes);
     expect(petzval_lens_buffer(lens, &mount, arguments[3], buffer, bytes) == PETZVAL_OK, "its bytes");
+    test_only_its_own_buffers_are_taken(buffer, bytes);
     write_file(arguments[4], buffer, bytes);
     free(buffer);
     petzval_look_close(look);

@@ -35,6 +35,13 @@ class LensBuffer(CommandLineTest):
             self.assertEqual((vectors[0][0], *vectors[0][2:]), (taps, 1, 1))
             self.assertEqual(len(vectors), 1 + all_taps + 2 * all_taps * SHARES + 67800)
 
+    def test_its_mark_is_at_byte_16(self):
+        self.succeed("lens", "buffer", "ideal", "-o", "lens.bin")
+        self.assertEqual(self.content("lens.bin")[16:20], b"PZL2")
+        x, y, distance, _ = self.vectors("ideal")[1]  # the tap in the middle is not moved by it
+        self.assertLess(abs(x), 1e-6)
+        self.assertEqual((y, distance), (0, 0))
+
     def test_weights_of_taps_sum_to_one(self):
         vectors = self.vectors("ideal", "--blades", "5")
         taps, weights = 48, 1 + self.all_taps(vectors)

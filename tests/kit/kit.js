@@ -21,6 +21,8 @@ function pushed(members, values) {
 }
 
 async function draw({ width, height, mostPx, programs, kit, lens, colour, radii }) {
+  const mark = new TextDecoder().decode(lens.slice(16, 20));
+  if (mark !== kit.lens_mark) throw new Error(`lens.bin is not for this kit: its bytes 16 to 19 are not ${kit.lens_mark}`);
   const adapter = await navigator.gpu?.requestAdapter();
   if (!adapter) return null;
   const device = await adapter.requestDevice();

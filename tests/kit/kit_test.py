@@ -65,8 +65,8 @@ def kit_in(folder):
     return json.loads((folder / "kit.json").read_text()), {step: (folder / "wgsl" / f"{step}.wgsl").read_text() for step in STEPS}
 
 
-def drawn(frame, folder):
-    """The frame's floats, by Chromium."""
+def answer(frame, folder):
+    """The frame's floats as text, by Chromium, or why they were refused."""
     try:
         from chromium import browser
     except ImportError:
@@ -86,6 +86,11 @@ def drawn(frame, folder):
         server.shutdown()
     if made is None:
         skip("this Chromium has no adapter for WebGPU")
+    return made
+
+
+def drawn(frame, folder):
+    made = answer(frame, folder)
     if made.startswith("refused"):
         sys.exit(f"kit_test: {made}")
     return array.array("f", base64.b64decode(made))
@@ -113,6 +118,12 @@ def main():
         never = re.sub(r"\b256u\b", "100000u", programs["reach"])  # lamps that reach a tile before it merges its own
         assert never != programs["reach"]
         crowded = drawn({**frame, "programs": {**programs, "reach": never}}, even)
+        older = bytearray((even / "lens.bin").read_bytes())
+        older[16:20] = bytes(4)
+        (even / "lens.bin").write_bytes(older)
+        refusal = answer(frame, even)
+    if refusal != f"refused: lens.bin is not for this kit: its bytes 16 to 19 are not {kit['lens_mark']}":
+        sys.exit(f"kit_test: an older lens.bin is not refused: {refusal[:80]}")
     assert len(made) == len(by_places) == len(expected) == 4 * frame["width"] * frame["height"], len(made)
     blurred_db, found_db, places_db = psnr_db(expected, sharp), psnr_db(made, expected), psnr_db(by_places, of_places)
     print(f"kit_test: {found_db:.1f} dB from the Vulkan pass, which is {blurred_db:.1f} dB from the sharp picture")

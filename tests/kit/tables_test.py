@@ -13,6 +13,8 @@ import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+import kit  # noqa: E402
 
 
 class Tables(unittest.TestCase):
@@ -97,6 +99,22 @@ class Tables(unittest.TestCase):
 
     def test_the_lens_is_that_of_the_page(self):
         self.assertEqual((KIT / "lens.bin").stat().st_size, 16 * (1 + 264 + 101592))
+
+    def test_an_older_lens_is_refused(self):
+        older = KIT.parent / "older.bin"
+        lens = bytearray((KIT / "lens.bin").read_bytes())
+        kit.check_lens(KIT / "lens.bin", TABLES["lens_mark"])
+        lens[16:20] = bytes(4)  # as petzval wrote it before buffers had marks
+        for content in (lens, lens[:18], b"GIF89a"):
+            older.write_bytes(content)
+            with self.assertRaisesRegex(SystemExit, "older.bin is not for these programs"):
+                kit.check_lens(older, TABLES["lens_mark"])
+
+    def test_pages_name_the_mark(self):
+        guide = (ROOT / "docs/guide/kit-in-engines.md").read_text()
+        self.assertEqual(set(re.findall(r'"(PZL\w)"', guide)), {TABLES["lens_mark"]})
+        for line in ("lens.slice(16, 20)", "GetString(lens, 16, 4)", "Lens.GetData() + 16"):
+            self.assertIn(line, guide)
 
 
 if __name__ == "__main__":

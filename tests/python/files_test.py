@@ -72,8 +72,13 @@ class Files(unittest.TestCase):
             self.assertEqual(lens.buffer(quality, size=(960, 540)), expected)
             subprocess.run([c_buffer, "doublet", str(cats_eye), quality, self.folder / "c.bin"], check=True)
             self.assertEqual((self.folder / "c.bin").read_bytes(), expected)
+            petzval.Lens.check_buffer(expected)
         with self.assertRaisesRegex(petzval.InvalidArgument, "draft, standard, final"):
             lens.buffer("best")
+        older = expected[:16] + bytes(4) + expected[20:]
+        for wrong, reason in ((older, "no mark PZL2"), (expected[:-16], "bytes instead of"), (b"GIF89a", "no mark PZL2")):
+            with self.assertRaisesRegex(petzval.InvalidFile, reason):
+                petzval.Lens.check_buffer(wrong)
 
     def test_c_python_and_the_command_line_give_the_same_bits(self):
         """One shot with layers, a lens file and a track of focus distances."""

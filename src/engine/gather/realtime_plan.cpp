@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -239,6 +240,7 @@ RealtimeLens realtime_lens(const kernel::LensModel& lens, const RealtimeZones& z
     for (std::uint32_t zone = 0; zone < zones.count(); ++zone)
         add_zone(lens, zones.at(zone), near_px, far_px, made);
     share_reaches(zones.count(), made);
+    made.fours[1].r = std::bit_cast<float>(RealtimeLens::kMark);
     return made;
 }
 

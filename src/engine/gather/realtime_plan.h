@@ -68,6 +68,10 @@ struct RealtimeLens {
     static constexpr int kMostTaps = 127, kSpirals = 4, kGridTaps = 72, kShares = 64;
     static constexpr std::size_t kOfLamps = 2 * (LampKernels::kSteps + LampKernels::weights());
     static_assert(kOfLamps == 67800, "as shaders/realtime.glsl has it");
+    // Names this layout: change its last letter with the place or the meaning of any number. It has the bytes
+    // of the x of the first tap, which lies in the middle, and is 1e-8 as a number.
+    static constexpr std::array<char, 4> kMark{'P', 'Z', 'L', '2'};
+    static constexpr std::size_t kMarkByte = sizeof(Rgba);
     std::vector<Rgba> fours;
     int taps() const { return int(fours[0].r); }
     static constexpr std::size_t all_taps(int taps) { return std::size_t(kSpirals * taps + kGridTaps); }
