@@ -16,7 +16,7 @@ constexpr float kOpaqueElsewhere = 0.99f;  // of a pixel that other frames may u
 constexpr float kOpaqueCaster = 0.98f;  // merged into a square that casts one shadow: 2 % of it is not seen
 constexpr float kOpaqueLayer = 0.97f;   // with emptiness, in an interval of radius: later samples lie behind
 
-// Sharp: a disc of this radius lies within its pixel; light that is out of focus by less stays there.
+// Sharp: a disc of this radius lies within its pixel.
 constexpr float kWithinPixelPx = 0.5f;
 
 // Same surface: two radii, `apart_px` pixels from each other, may lie on one. The radius changes by no more

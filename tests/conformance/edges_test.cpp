@@ -22,6 +22,13 @@ struct Disc {
     }
 };
 
+Plane picture_of(const Disc& disc, bool filtered) {
+    Plane coverage(disc.width, disc.height);
+    for (int y = 0; y < disc.height; ++y)
+        for (int x = 0; x < disc.width; ++x) coverage(x, y) = disc.coverage(x, y, filtered);
+    return coverage;
+}
+
 // Coverage averaged over a disc of radius_px around each pixel, nothing beyond the picture: rows of the disc,
 // four to a pixel, as differences of running sums.
 Plane seen_through_pupil(const Plane& coverage, double radius_px) {
@@ -64,6 +71,18 @@ Plane seen_through_pupil(const Plane& coverage, double radius_px) {
     return seen;
 }
 
+// The same of the disc itself, averaged over each pixel: from pixels 1 / finer as wide.
+Plane seen_through_pupil(const Disc& disc, double radius_px) {
+    const int finer = radius_px < 8 ? 4 : 2;
+    const Disc fine{finer * disc.width, finer * disc.height, finer * disc.x, finer * disc.y,
+                    finer * disc.radius};
+    const Plane seen = seen_through_pupil(picture_of(fine, true), finer * radius_px);
+    Plane mean(disc.width, disc.height, 0);
+    for (int y = 0; y < fine.height; ++y)
+        for (int x = 0; x < fine.width; ++x) mean(x / finer, y / finer) += seen(x, y) / float(finer * finer);
+    return mean;
+}
+
 struct Case {
     const char* name;
     double disc, behind;  // radii, in units of the radius
@@ -100,22 +119,26 @@ double largest_error(const Case& c, const Picture& image, const Plane& expected)
     return largest;
 }
 
+// Taps as wide as pixels cannot follow a disc of 1 px wherever in a pixel its edge lies: the best that are
+// not negative are wrong by 0.046 at one such edge or another, those of least squares by 0.057.
+constexpr double kLimitAt1Px = 0.06;
 constexpr Quality kQualities[] = {Quality::Draft, Quality::Standard, Quality::Final};
 
+// Pixels that are all or nothing are squares, and so is what is expected of them.
 void check_disc(float radius_px, const Disc& disc) {
+    const Plane filtered = picture_of(disc, true), squares = picture_of(disc, false);
+    const Plane of_disc = seen_through_pupil(disc, double(radius_px));
+    const Plane of_squares = seen_through_pupil(squares, double(radius_px));
     for (const Case& c : kCases) {
-        Plane coverage(disc.width, disc.height);
-        for (int y = 0; y < disc.height; ++y)
-            for (int x = 0; x < disc.width; ++x) coverage(x, y) = disc.coverage(x, y, c.filtered);
-        const Plane expected = seen_through_pupil(coverage, double(radius_px));
-        const Shot shot = shot_of(c, disc, coverage, radius_px);
+        const Plane& expected = c.filtered ? of_disc : of_squares;
+        const Shot shot = shot_of(c, disc, c.filtered ? filtered : squares, radius_px);
+        const double limit = radius_px < 1.5f ? kLimitAt1Px : c.has_alpha && radius_px < 32 ? 0.03 : 0.05;
         double best = 1;
         for (const Quality quality : kQualities) {
             DefocusJob job = shot.job("scatter");
             job.quality = quality;
             const double error = largest_error(c, rendered(job), expected);
-            EXPECT_LT(error, c.has_alpha && radius_px < 32 ? 0.03 : 0.05)
-                << c.name << ", radius " << radius_px << ", quality " << int(quality);
+            EXPECT_LT(error, limit) << c.name << ", radius " << radius_px << ", quality " << int(quality);
             EXPECT_LT(error, best + 0.005) << c.name << ", radius " << radius_px << ": quality "
                                            << int(quality) << " is worse than the one below it";
             best = std::min(best, error);

@@ -2,6 +2,7 @@
 
 #include "base/bits.h"
 #include "kernel/model/pieces.h"
+#include "kernel/model/radius_on_grid.h"
 #include "laws/surfaces.h"
 
 #include <algorithm>
@@ -22,18 +23,18 @@ std::vector<float> steps_down_from(float largest_px, float ratio) {
 }
 
 // Radius on a level's grid. Sharing light between cells s pixels wide and enlarging again are tents: each
-// blurs by (s^2 + 1/2) / 6 px^2 per axis, and the grid's own squares by (s^2 - 1)/12 more than pixels. A
-// disc's second moment is r^2/4, so the kernel's is taken smaller by that much.
-double radius_in_cells(double radius_px, int level) {
-    if (level == 0) return radius_px;
+// blurs by (s^2 + 1/2) / 6 px^2 per axis, and the grid's own squares by s^2/12. A disc's second moment is
+// r^2/4, so the kernel's is taken smaller by that much.
+double radius_in_cells(const LensOnPicture& lens, double radius_px, int level) {
+    if (level == 0) return kernel::radius_on_grid(radius_px, kernel::blurs_in_focus(lens.level(0)));
     const double s = std::ldexp(1.0, level);
-    const double squared = radius_px * radius_px - (5 * s * s + 1) / 3;
+    const double squared = radius_px * radius_px - (5 * s * s + 2) / 3;
     return std::copysign(std::sqrt(std::max(0.0, squared)) / s, radius_px);
 }
 
 // The largest offset of any weight of a ring's kernel, in cells of a level.
 double reach_in_cells(const LensOnPicture& lens, float radius_px, int level) {
-    return lens.level(level).reach_px(std::abs(radius_in_cells(double(radius_px), level))) + 0.5;
+    return lens.level(level).reach_px(std::abs(radius_in_cells(lens, double(radius_px), level))) + 0.5;
 }
 
 // The size that decides how coarse a ring's cells are: its radius, or more where aberrations spread its light
@@ -87,7 +88,7 @@ RingSizes::RingSizes(float nearest_px, float farthest_px, const RingRule& rule, 
     }
     put_in_order();
     const auto squared = [&](int ring) {
-        const float r = std::max(std::abs(radius_px(ring)), kWithinPixelPx);
+        const float r = radius_px(ring);
         return r * r;
     };
     for (int i = 0; i <= count(); ++i) {
@@ -171,7 +172,8 @@ kernel::PointSpread RingKernels::whole(int level, int zone, float radius_px) con
     const int column = zone % zones_.columns, row = zone / zones_.columns;
     const double x = (column + 0.5) * lens_.frame.width() / zones_.columns - 0.5;
     const double y = (row + 0.5) * lens_.frame.height() / zones_.rows - 0.5;
-    return lens_.level(level).point_spread(radius_in_cells(double(radius_px), level), lens_.field_at(x, y));
+    return lens_.level(level).point_spread(radius_in_cells(lens_, double(radius_px), level),
+                                           lens_.field_at(x, y));
 }
 
 kernel::PointSpread RingKernels::core(int level, int zone, float radius_px) const {

@@ -1,7 +1,7 @@
 #include "engine/gather/plan.h"
 
 #include "base/parallel.h"
-#include "laws/surfaces.h"
+#include "kernel/model/radius_on_grid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,7 +46,7 @@ bool keeps_pixels(const LensOnPicture& lens) {
 bool is_reached(const EngineView& input, const std::vector<Rect>& tiles, const std::vector<float>& largest,
                 const Rect& tile) {
     for (std::size_t i = 0; i < tiles.size(); ++i) {
-        if (largest[i] <= laws::kWithinPixelPx && keeps_pixels(input.lens)) continue;
+        if (largest[i] < float(kernel::kInFocus) && keeps_pixels(input.lens)) continue;
         const int reach = int(std::ceil(input.lens.level(0).reach_px(double(largest[i])) * 1.05)) + 4;
         if (!tiles[i].grown(reach).intersected(tile).empty()) return true;
     }

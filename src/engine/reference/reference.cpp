@@ -18,6 +18,7 @@
 #include "engine/reference/surfaces.h"
 #include "engine/waist/holdout.h"
 #include "engine/waist/memory.h"
+#include "kernel/model/radius_on_grid.h"
 
 #include <algorithm>
 #include <chrono>
@@ -125,10 +126,11 @@ private:
         const Rect r = surfaces_.block_area(bx, by);
         const float ax = bounds.min * ray.x + ray.offset_x_px, bx_px = bounds.max * ray.x + ray.offset_x_px;
         const float ay = bounds.min * ray.y + ray.offset_y_px, by_px = bounds.max * ray.y + ray.offset_y_px;
-        return float(r.x1) + std::max(ax, bx_px) >= float(area_.x0) &&
-               float(r.x0) + std::min(ax, bx_px) < float(area_.x1) &&
-               float(r.y1) + std::max(ay, by_px) >= float(area_.y0) &&
-               float(r.y0) + std::min(ay, by_px) < float(area_.y1);
+        constexpr float kShift = 1;  // more than shifts differ from radii
+        return float(r.x1) + std::max(ax, bx_px) + kShift >= float(area_.x0) &&
+               float(r.x0) + std::min(ax, bx_px) - kShift < float(area_.x1) &&
+               float(r.y1) + std::max(ay, by_px) + kShift >= float(area_.y0) &&
+               float(r.y0) + std::min(ay, by_px) - kShift < float(area_.y1);
     }
 
     void draw_block(const Rect& block, const kernel::PupilRay& ray, int k) {
@@ -150,11 +152,10 @@ private:
 
     // (left, top): corner of the facet's pixel, such that samples are at whole numbers.
     void draw(const Facet& facet, std::uint32_t index, float left, float top, const kernel::PupilRay& ray) {
-        const float* c = facet.corner_coc_px;
+        const float* c = facet.shift_px;
         const float bend = std::max({std::abs(c[0] - c[1]), std::abs(c[0] - c[2]), std::abs(c[0] - c[3])});
         if (bend < 1e-5f) {  // flat: a unit square holds exactly one sample
-            const int x = int(std::ceil(left + facet.coc_px * ray.x)),
-                      y = int(std::ceil(top + facet.coc_px * ray.y));
+            const int x = int(std::ceil(left + c[0] * ray.x)), y = int(std::ceil(top + c[0] * ray.y));
             if (x >= 0 && x < area_.width() && y >= 0 && y < area_.height()) put(x, y, facet.coc_px, index);
             return;
         }
@@ -323,8 +324,9 @@ Result<Output> run_reference(const EngineView& input, Spare) {
     // A ray may come from as far as the largest radius on either side of focus.
     const int margin = int(std::ceil(input.lens.level(0).reach_px(largest_radius(input)))) + 2;
     if (const Status fits = surfaces_fit(input, samples, margin); !fits) return fits.error();
-    const Surfaces surfaces = Surfaces::make(samples, input.window.open_edges, margin,
-                                             input.samples.deep_dims_itself, *input.services.workers);
+    const Surfaces surfaces =
+        Surfaces::make(samples, input.window.open_edges, margin, input.samples.deep_dims_itself,
+                       kernel::blurs_in_focus(input.lens.level(0)), *input.services.workers);
     const double prepared = seconds();
 
     Output output;

@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "engine/reference/bright_points.h"
+#include "kernel/model/radius_on_grid.h"
 
 #include <algorithm>
 #include <array>
@@ -22,9 +23,41 @@ bool is_one_surface(float step_px, float step_before_px, float step_after_px) {
            std::abs(step_px - step_after_px) <= most_off;
 }
 
+// A sample of a pixel around a corner: its pixel's place in the ring, and which surface it belongs to.
+struct Member {
+    std::uint32_t facet;
+    int corner, place, group;
+    float coc;
+};
+
+// Joins a sample with one of the next pixel of the ring, if they are one surface and closest to each other.
+template <typename SlopeBeyond>
+void join(std::vector<Member>& members, const Member& a, int next, const SlopeBeyond& slope_beyond) {
+    const auto closest = [&](int place, float coc) {
+        const Member* best = nullptr;
+        for (const Member& m : members)
+            if (m.place == place && (!best || std::abs(m.coc - coc) < std::abs(best->coc - coc))) best = &m;
+        return best;
+    };
+    const Member* b = closest(next, a.coc);
+    if (!b || !is_one_surface(b->coc - a.coc, -slope_beyond(a, next), slope_beyond(*b, a.place))) return;
+    if (std::abs(closest(a.place, b->coc)->coc - b->coc) < std::abs(a.coc - b->coc)) return;
+    const int from = b->group, to = a.group;
+    for (Member& m : members)
+        if (m.group == from) m.group = to;
+}
+
+float mean_coc(const std::vector<Member>& members, int group) {
+    float total = 0;
+    int n = 0;
+    for (const Member& m : members)
+        if (m.group == group) total += m.coc, ++n;
+    return total / float(n);
+}
+
 Facet facet_of(Rgba colour, float coc_px) {
     const float coverage = std::clamp(colour.a, 0.0f, 1.0f);
-    Facet facet{colour * (1 / coverage), coverage, 0, coc_px, {coc_px, coc_px, coc_px, coc_px}};
+    Facet facet{colour * (1 / coverage), coverage, 0, coc_px, {coc_px, coc_px, coc_px, coc_px}, {}};
     facet.colour.a = 1;
     return facet;
 }
@@ -32,7 +65,7 @@ Facet facet_of(Rgba colour, float coc_px) {
 }  // namespace
 
 Surfaces Surfaces::make(const CocSamples& samples, const OpenEdges& open, int margin, bool dims_itself,
-                        Workers& workers) {
+                        bool blurs_in_focus, Workers& workers) {
     Surfaces surfaces;
     surfaces.dims_itself_ = dims_itself;
     surfaces.area_ = {open.left ? -margin : 0, open.top ? -margin : 0,
@@ -40,6 +73,7 @@ Surfaces Surfaces::make(const CocSamples& samples, const OpenEdges& open, int ma
                       samples.height() + (open.bottom ? margin : 0)};
     surfaces.gather(samples);
     surfaces.connect(workers);
+    surfaces.shift(blurs_in_focus);
     surfaces.bound();
     return surfaces;
 }
@@ -92,11 +126,6 @@ void Surfaces::connect_around_corner(int x, int y) {
         return;
     }
 
-    struct Member {
-        std::uint32_t facet;
-        int corner, place, group;
-        float coc;
-    };
     thread_local std::vector<Member> members;
     members.clear();
     for (int place = 0; place < 4; ++place) {
@@ -118,35 +147,16 @@ void Surfaces::connect_around_corner(int x, int y) {
                 if (std::abs(f.coc_px - from.coc) < std::abs(best)) best = f.coc_px - from.coc;
         return best;
     };
-    // Each pair of neighbours (the four edges of the ring) joins its mutually closest connected samples.
-    for (int place = 0; place < 4; ++place) {
-        const int next = (place + 1) % 4;
-        for (Member& a : members) {
-            if (a.place != place) continue;
-            Member* best = nullptr;
-            for (Member& b : members)
-                if (b.place == next && (!best || std::abs(b.coc - a.coc) < std::abs(best->coc - a.coc)))
-                    best = &b;
-            if (!best ||
-                !is_one_surface(best->coc - a.coc, -slope_beyond(a, next), slope_beyond(*best, place)))
-                continue;
-            bool mutual = true;
-            for (const Member& other : members)
-                if (other.place == place && std::abs(other.coc - best->coc) < std::abs(a.coc - best->coc))
-                    mutual = false;
-            if (!mutual) continue;
-            const int from = best->group, to = a.group;
-            for (Member& m : members)
-                if (m.group == from) m.group = to;
-        }
-    }
-    for (const Member& m : members) {
-        float total = 0;
-        int n = 0;
-        for (const Member& other : members)
-            if (other.group == m.group) total += other.coc, ++n;
-        facets_[m.facet].corner_coc_px[m.corner] = total / float(n);
-    }
+    for (int place = 0; place < 4; ++place)
+        for (const Member& a : members)
+            if (a.place == place) join(members, a, (place + 1) % 4, slope_beyond);
+    for (const Member& m : members) facets_[m.facet].corner_coc_px[m.corner] = mean_coc(members, m.group);
+}
+
+void Surfaces::shift(bool blurs_in_focus) {
+    for (Facet& f : facets_)
+        for (std::size_t i = 0; i < 4; ++i)
+            f.shift_px[i] = float(kernel::radius_on_grid(double(f.corner_coc_px[i]), blurs_in_focus));
 }
 
 void Surfaces::bound() {

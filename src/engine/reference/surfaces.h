@@ -21,6 +21,7 @@ struct Facet {
     float coverage_in_front = 0;  // sum of the coverages of nearer facets of the pixel
     float coc_px = 0;             // signed radius at the centre
     float corner_coc_px[4];       // at (x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)
+    float shift_px[4];            // how far the corners move from pupil point 0 to 1
 
     // True if a facet that covers part of its pixel is present for a ray of this chance (0…1); over all
     // chances it is present for exactly its coverage. Partly covering facets of one pixel lie beside each
@@ -42,9 +43,9 @@ public:
         float min = 1e30f, max = -1e30f;
     };
 
-    // dims_itself: as Samples::deep_dims_itself.
+    // dims_itself: as Samples::deep_dims_itself. blurs_in_focus: as kernel::radius_on_grid has it.
     static Surfaces make(const CocSamples& samples, const OpenEdges& open, int margin, bool dims_itself,
-                         Workers& workers);
+                         bool blurs_in_focus, Workers& workers);
     // True if a facet that covers part of its pixel lets through a fraction of the light behind it (fog);
     // false if the rest of the pixel's area belongs to other facets (silhouettes).
     bool dims_itself() const { return dims_itself_; }
@@ -73,6 +74,7 @@ private:
     void gather(const CocSamples& samples);
     void connect(Workers& workers);
     void connect_around_corner(int x, int y);
+    void shift(bool blurs_in_focus);
     void bound();
 
     Rect area_;

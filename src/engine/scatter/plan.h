@@ -48,18 +48,9 @@ struct LevelRule {
 
 LevelRule level_rule(const EngineView& input);
 
-// The signed radius in pixels of a source whose radius is given in cells of its level.
-inline float radius_in_pixels(float radius, int level) {
-    const float size = float(1 << level), square = radius * radius * size * size;
-    return level == 0 ? radius : std::copysign(std::sqrt(square + (size * size - 1) / 3), radius);
-}
-// The inverse: the radius of a disc in cells of its level that, averaged over such cells, is as wide as a
-// disc of coc_px averaged over pixels. (A square of side a adds a^2/12 to the mean square along each axis,
-// a disc of radius r has r^2/4.)
-inline float radius_in_cells(float coc_px, int level) {
-    const float size = float(1 << level), square = coc_px * coc_px - (size * size - 1) / 3;
-    return level == 0 ? coc_px : std::copysign(std::sqrt(std::max(0.0f, square)) / size, coc_px);
-}
+// The signed radius in pixels of a source whose radius is given in cells of its level, and the inverse.
+inline float radius_in_pixels(float radius, int level) { return std::ldexp(radius, level); }
+inline float radius_in_cells(float coc_px, int level) { return std::ldexp(coc_px, -level); }
 
 // A small square of one surface that spreads its light. There are about as many as pixels.
 struct Source {

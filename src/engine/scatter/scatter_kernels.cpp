@@ -2,6 +2,7 @@
 
 #include "engine/scatter/sectors.h"
 #include "kernel/model/pieces.h"
+#include "kernel/model/radius_on_grid.h"
 #include "kernel/model/spread.h"
 
 #include <algorithm>
@@ -157,7 +158,9 @@ kernel::PointSpread ScatterKernels::whole(const Place& at_place) const {
     const double y = (row + 0.5) * lens_.frame.height() / zones_y_ - 0.5;
     const kernel::LensModel& lens = lens_.level(at_place.level);
     const auto made = [&](float r) { return lens.point_spread(double(r), lens_.field_at(x, y)); };
-    const float asked = radius_of(at_place), side = at_place.step < 0 ? -1 : 1;
+    const auto asked =
+        float(kernel::radius_on_grid(double(radius_of(at_place)), kernel::blurs_in_focus(lens)));
+    const float side = at_place.step < 0 ? -1 : 1;
     const float place = std::abs(asked) * kMadePerCell, first = std::floor(place);
     if (lens.is_quick() || place == first) return made(asked);
     // Slow kernels are computed at some radii and interpolated between them.

@@ -63,6 +63,35 @@ TEST(ScatterKernels, NearlySharpSourcesOfAnAberratedLensTakeTheirShareOfEachZone
     EXPECT_EQ(mean_place(0, 205, 100)[1], 3) << "narrow kernels: the nearest zone alone";
 }
 
+// The columns beside the middle get what blurs a step best (kernel/model/radius_on_grid.h): least squares
+// over steps anywhere in a pixel.
+TEST(ScatterKernels, BlurAStepAnywhereInAPixelBest) {
+    LensChoice choice;
+    std::vector<std::unique_ptr<const kernel::LensModel>> lenses;
+    lenses.push_back(std::move(kernel::make_lens(choice, {{50, 36, 2, 2}, 640, 360})).value());
+    LensOnPicture lens;
+    lens.levels = lenses, lens.frame = {0, 0, 640, 360};
+    const ScatterKernels table(lens, LevelRule{});
+    for (const auto& [radius, beside] : {std::pair{0.0f, 0.0},
+                                         {0.3f, 0.020},
+                                         {-0.5f, 0.052},
+                                         {1.0f, 0.165},
+                                         {1.5f, 0.279},
+                                         {-3.0f, 0.201}}) {
+        const std::array<device::KernelAsk, 1> ask{table.ask(0, 0, radius, 0, false)};
+        const auto made = table.make(ask);
+        const kernel::PointSpread& spread = *made.front().front();
+        double light = 0, column = 0;
+        for (int y = 0; y < spread.weights.height(); ++y)
+            for (int x = 0; x < spread.weights.width(); ++x) {
+                light += double(spread.weights(x, y).a);
+                if (x + spread.extent.x0 == 1) column += double(spread.weights(x, y).a);
+            }
+        EXPECT_NEAR(light, 1, 1e-4) << radius;
+        EXPECT_NEAR(column, beside, 0.008) << radius;
+    }
+}
+
 TEST(ScatterKernels, TheFirstToAskForAKernelDoesNotShapeIt) {
     LensChoice choice;
     choice.name = "doublet";

@@ -38,7 +38,8 @@ float of_each(float radius_px, float reach) {
 vec2 disc_of(float radius) {
     const float all = abs(radius);
     if (all <= 0.5) return vec2(radius < 0 ? -0.5 : 0.5, 1);
-    const float reach = max(all - (1.0 / 24) / all, 0.5);
+    const float on_grid = sqrt(max(0.25 + 0.55 * all * all, all * all - 0.25));  // kernel/model/radius_on_grid.h
+    const float reach = max(on_grid - (1.0 / 24) / on_grid, 0.5);
     return vec2(radius < 0 ? -reach : reach, all < kWholePx ? of_each(all, reach) : 0.0);
 }
 // Radii of the pixels that one invocation has read; widest_px and farthest_px are made of them.
