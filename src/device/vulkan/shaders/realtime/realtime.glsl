@@ -20,7 +20,7 @@ vec2 zone_place(vec2 pixel, vec2 zones) { return clamp(at.zone_scale * pixel + a
 
 const float kMostLight = 60000;  // that cells hold
 const int kTile = 16;            // pixels
-const int kShadowSteps = 8;      // on the way of a lamp's light to a pixel
+const int kShadowSteps = 6;      // on the way of a lamp's light to a pixel
 const int kLayers = 4, kBackLight = 0, kBack = 1, kNearLight = 2, kNear = 3;  // of cells
 // Stored for the finest level only: signed radii of the cell's four pixels.
 const int kRadii = 4;
