@@ -286,6 +286,30 @@ TEST_F(Realtime, ASlantedWireShowsNoGroupsOfPixels) {
     }
 }
 
+// A twig in focus with half-covered rims of the background's depth: where these rims and the twig show the
+// background, it is blurred. On both rims half of the light is the twig's (0.05 of 0.1).
+TEST_F(Realtime, ATwigInFocusShowsAFarBackgroundBlurred) {
+    for (const float coc_px : {-1.0f, 0.0f, 0.3f}) {
+        Shot behind = flat(128, 96, {0.2f, 0.2f, 0.2f, 1}, 16),
+             shot = flat(128, 96, {0.2f, 0.2f, 0.2f, 1}, 16);
+        for (int y = 0; y < 96; ++y)
+            for (int x = 64; x < 128; ++x) behind.colour(x, y) = shot.colour(x, y) = {0.9f, 0.9f, 0.9f, 1};
+        for (int x = 0; x < 128; ++x) {
+            const float sharp = behind.colour(x, 45).g, rim = 0.05f + 0.5f * sharp;
+            for (int y = 46; y < 49; ++y)
+                shot.colour(x, y) = {0.1f, 0.1f, 0.1f, 1}, shot.coc_px(x, y) = coc_px;
+            for (const int y : {45, 49}) shot.colour(x, y) = {rim, rim, rim, 1};
+        }
+        for (Session& session : sessions_) {
+            const Picture blurred = drawn(session, behind), made = drawn(session, shot);
+            for (const int x : {54, 57, 60, 67, 70, 73})
+                for (const int y : {45, 49})
+                    EXPECT_NEAR(made(x, y).g, 0.05f + 0.5f * blurred(x, y).g, coc_px < 0 ? 0.05f : 0.03f)
+                        << coc_px << " at " << x;
+        }
+    }
+}
+
 // A bright square behind focus, seen past a surface far in front of focus: cells have different taps, and
 // their grid does not show.
 TEST_F(Realtime, LightBehindANearSurfaceShowsNoGrid) {

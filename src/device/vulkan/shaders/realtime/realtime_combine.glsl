@@ -24,6 +24,10 @@ shared vec2 window_discs[kAcross * kAcross];  // signed reach, at least half a p
 // Radii of the window's pixels, as bits. widest_px: the largest of those blurred pixel by pixel behind focus, of those in
 // front of it, and of all in front of it. farthest_px: the smallest in front of focus; 0 if a pixel is behind it.
 shared uint widest_px[3], farthest_px;
+shared uint silhouettes_found;  // 0 if no pixel shows a hardly blurred surface and its background
+const float kHardlyPx = 2;      // a surface with this radius is hardly blurred
+const float kFarMorePx = 2;     // a surface blurred by so much more than the one beside it is far behind it
+const float kAnyPx = 8;         // stands for any radius of light that cells draw (back_at)
 const int kToRight = kRim * kSquare + kRim + 1;
 shared float inside[kSquare * kSquare];  // by offset, from (-kRim, -kRim): half a pixel less the distance
 // Light that each pixel of a disc gets: in all as much as the disc has. The numbers are distances of the eight nearest rings of
@@ -46,8 +50,9 @@ vec2 disc_of(float radius) {
 struct Widest {
     vec3 widest;
     float farthest;
+    uint silhouettes;  // a bit for each pixel that shows a hardly blurred surface and its background
 };
-void read_pixel(ivec2 place, inout Widest found) {
+void read_pixel(ivec2 place, uint number, inout Widest found) {
     if (max(place.x, place.y) >= kAcross) return;
     const ivec2 there = clamp(8 * ivec2(gl_WorkGroupID.xy) - kRim + place, ivec2(0), at.size - 1);
     const int i = place.y * kAcross + place.x;
@@ -57,23 +62,29 @@ void read_pixel(ivec2 place, inout Widest found) {
     window_discs[i] = disc;
     found.widest = max(found.widest, vec3(radius > 0 ? vec2(fine_px, 0) : vec2(0, fine_px), -radius));
     found.farthest = min(found.farthest, -disc.x);
+    if (abs(radius) < kHardlyPx && has_mark(radius) && min(place.x, place.y) > 0 && max(place.x, place.y) < kAcross - 1)
+        found.silhouettes |= 1u << number;
 }
 // Reads the window; all invocations of the group call it together. Four calls and no loop, so that the reads overlap.
-void read_window() {
+// Returns the silhouette pixels of this invocation.
+uint read_window() {
     const int own = int(gl_LocalInvocationIndex);
     const ivec2 local = ivec2(gl_LocalInvocationID.xy);
     if (own < 3) widest_px[own] = 0u;
     if (own == 3) farthest_px = floatBitsToUint(at.most_px);
-    Widest found = Widest(vec3(0), at.most_px);
-    read_pixel(local, found);
-    read_pixel(local + ivec2(8, 0), found);
-    read_pixel(local + ivec2(0, 8), found);
-    read_pixel(local + 8, found);
+    if (own == 4) silhouettes_found = 0u;
+    Widest found = Widest(vec3(0), at.most_px, 0u);
+    read_pixel(local, 0u, found);
+    read_pixel(local + ivec2(8, 0), 1u, found);
+    read_pixel(local + ivec2(0, 8), 2u, found);
+    read_pixel(local + 8, 3u, found);
     barrier();
     for (int i = 0; i < 3; ++i)
         if (found.widest[i] > 0) atomicMax(widest_px[i], floatBitsToUint(found.widest[i]));
+    if (found.silhouettes != 0u) atomicOr(silhouettes_found, found.silhouettes);
     atomicMin(farthest_px, floatBitsToUint(max(found.farthest, 0.0)));
     if (max(local.x, local.y) < kSquare) inside[local.y * kSquare + local.x] = 0.5 - length(vec2(local.x - kRim, float(local.y - kRim) / at.aspect));
+    return found.silhouettes;
 }
 // Offsets of pixels that a disc reaches.
 int last_offset(float radius_px) { return min(int(ceil(max(radius_px, 0.5) - 0.5)), kRim); }
@@ -148,6 +159,7 @@ vec4 without_near(int own, float radius) {
 struct Fine {
     vec4 back, near;
     float back_area, area;  // of what is behind focus or taken for it, 0: `back` is sharp; of what is in front
+    float wide_area;         // of what the pixel's own disc shows of light that cells blur
 };
 // Removes the near surface from the picture in the window. Returns the signed radius of the surface behind it. All
 // invocations of the group call it together.
@@ -184,20 +196,28 @@ void add_near(int own, float near_px, inout Fine sum) {
     // The covered area of a disc, counted pixel by pixel, is right to 4 %.
     if (sum.area > 1) sum.near *= 1 / sum.area, sum.area = 1;
 }
-// Adds the rest of it. Pixels whose discs are wider than its own are seen through its own.
+// Adds the rest of it. Pixels whose discs are wider than its own are seen through its own; cells give the light of those that
+// lie far behind it.
 void add_back(int own, float radius, float back_px, inout Fine sum) {
     sum.back = window[own];
     vec4 back = vec4(0);
     float back_area = 0;
     const vec2 opening = disc_of(max(radius, 0.0));
     const int far = min(last_offset(back_px), last_offset(max(at.aspect, 1.0) * radius));
+    // A pixel blurred by more than 2 px is drawn by cells as well, so cells there show its own surface.
+    const float by_cells = ramp(3.0, 2.0, radius), far_more = by_cells > 0 ? opening.x + kFarMorePx : at.most_px;
     int there = own - far * (kAcross + 1), i = (kRim - far) * (kSquare + 1);
     const int across = 2 * far + 1;
     for (int y = -far; y <= far; ++y, there += kAcross - across, i += kSquare - across) {
         for (const int end = there + across; there < end; ++there, ++i) {
             const vec2 disc = window_discs[there];
-            const float area = clamp(min(disc.x, opening.x) + inside[i], 0.0, 1.0) * max(disc.y, opening.y);
+            float area = clamp(min(disc.x, opening.x) + inside[i], 0.0, 1.0) * max(disc.y, opening.y);
             if (area == 0) continue;
+            if (disc.x > far_more) {
+                const float wide = by_cells * blurred_share(disc.x - opening.x) * area;
+                sum.wide_area += wide;
+                area -= wide;
+            }
             back += area * window[there];
             back_area += area;
         }
@@ -207,8 +227,13 @@ void add_back(int own, float radius, float back_px, inout Fine sum) {
         sum.back_area = min(back_area, 1.0);
     } else if (radius < 0 && radius > -kWholePx) {  // wider ones keep what cells found, or groups would show
         const Behind behind = behind_at(own, radius);
-        if (behind.area > 0) sum.back = behind.light, sum.back_area = behind.sharp;
-        else if (sum.area > 0) sum.back = sum.near / sum.area;
+        if (behind.area > 0) {
+            sum.back = behind.light;
+            sum.back_area = behind.sharp;
+            sum.wide_area = 1 - behind.sharp;
+        } else if (sum.area > 0) {
+            sum.back = sum.near / sum.area;
+        }
     }
 }
 
@@ -240,6 +265,49 @@ vec4 back_at(ivec2 pixel, float radius, out float is_known) {
     return sum * (1 / weights);
 }
 
+// A silhouette pixel shows a part of the background (realtime_split.comp: own_radius). Where that lies far behind it, cells give
+// this part. It follows from the colours of the pixels around that show one surface only.
+void blur_background_in(ivec2 place) {
+    const float kBetween = 0.94;  // squared cosine of the angle between colours that differ from a third one in the same way
+    const int own = place.y * kAcross + place.x;
+    const float far_more = max(window_discs[own].x + kFarMorePx, kWholePx);
+    vec4 behind = vec4(0);
+    float count = 0;
+    for (int y = -kAcross; y <= kAcross; y += kAcross)
+        for (int there = own + y - 1; there <= own + y + 1; ++there)
+            if (window_discs[there].x >= far_more) {
+                behind += window[there];
+                count += 1;
+            }
+    if (count == 0) return;
+    behind *= 1 / count;
+    const ivec2 last = at.size - 1, pixel = clamp(8 * ivec2(gl_WorkGroupID.xy) - kRim + place, ivec2(0), last);
+    vec3 near = vec3(0);
+    count = 0;
+    [[dont_unroll]] for (int y = -1; y <= 1; ++y)
+        [[dont_unroll]] for (int x = -1; x <= 1; ++x) {
+            const int there = own + y * kAcross + x;
+            if (window_discs[there].x >= far_more || has_mark(radius_at(clamp(pixel + ivec2(x, y), ivec2(0), last)))) continue;
+            near += window[there].rgb;
+            count += 1;
+        }
+    if (count == 0) return;
+    const vec3 light = (window[own] - behind).rgb, apart = near / count - behind.rgb;
+    const float along = dot(light, apart), most = dot(apart, apart);
+    if (along <= 0 || along >= most || along * along < kBetween * most * dot(light, light)) return;
+    float is_known;
+    const vec4 blurred = back_at(pixel, kAnyPx, is_known);
+    window[own] = max(window[own] + is_known * (1 - along / most) * (blurred - behind), vec4(0));
+}
+// All invocations of the group call it together, each for the pixels that it has read.
+void blur_backgrounds(uint silhouettes) {
+    for (uint left = silhouettes; left != 0u; left &= left - 1u) {
+        const int number = findLSB(left);
+        blur_background_in(ivec2(gl_LocalInvocationID.xy) + 8 * ivec2(number & 1, number >> 1));
+    }
+    barrier();
+}
+
 void add_near_cells(vec2 place, float w, inout vec4 near, inout vec2 area) {
     const vec4 areas = textureLod(gathered, vec3(place, kGatheredArea), 0);
     if (areas.x == 0) return;
@@ -263,13 +331,13 @@ vec4 near_at(vec2 place, float reach_px, out vec2 area) {
 }
 
 // The view that a host asked for.
-vec4 viewed(vec4 made, float radius, vec4 reaches, vec4 behind, vec4 before) {
+vec4 viewed(vec4 made, float radius, vec4 reaches, bool is_fine, vec4 behind, vec4 before) {
     const float share = min(abs(radius) / at.most_px, 1.0);
     if (at.view == 1u) return vec4(radius < 0 ? share : 0.0, abs(radius) < 0.5 ? 0.25 : 0.0, radius > 0 ? share : 0.0, 1);
     if (at.view == 2u) return vec4(behind.rgb, 1);
     if (at.view == 3u) return before;
     if (at.view == 4u) return vec4(0, 0, 0, 1);  // lamps are added
-    if (at.view == 5u) return vec4(reaches.x / at.most_px, reaches.y / kWholePx, 0, 1);
+    if (at.view == 5u) return vec4(reaches.x / at.most_px, is_fine ? 1.0 : 0.0, 0, 1);
     return made;
 }
 
@@ -281,15 +349,17 @@ void main() {
     float radius = radius_at(pixel);
     const float own_px = radius;
     const vec4 reaches = reach[tile.y * at.tiles.x + tile.x];
-    const bool has_near = reaches.z > 2, is_fine = reaches.y > (has_near ? 0.0 : 0.5);
+    const int quarter = int(2u * (gl_WorkGroupID.y & 1u) + (gl_WorkGroupID.x & 1u));
+    const bool has_near = reaches.z > 2, is_fine = (uint(reaches.y) >> ((has_near ? 4 : 0) + quarter) & 1u) != 0u;
     const int own = (int(gl_LocalInvocationID.y) + kRim) * kAcross + int(gl_LocalInvocationID.x) + kRim;
-    Fine fine = Fine(vec4(0), vec4(0), 0, 0);
+    Fine fine = Fine(vec4(0), vec4(0), 0, 0, 0);
     float back_px = 0;
     if (is_fine) {
-        read_window();
+        const uint silhouettes = read_window();
         barrier();
         back_px = uintBitsToFloat(widest_px[0]);
         const float near_px = uintBitsToFloat(widest_px[1]), nearest = uintBitsToFloat(widest_px[2]);
+        if (silhouettes_found != 0u) blur_backgrounds(silhouettes);
         if (has_near && nearest >= kWholePx && uintBitsToFloat(farthest_px) < 0.8 * nearest) radius = reveal(own, radius);
         add_near(own, near_px, fine);
     }
@@ -305,10 +375,10 @@ void main() {
         else fine.back = finite_of(texelFetch(colours, pixel, 0));
         // A completely near pixel has no sharp part; some of its background may be known.
         base = fine.back;
-        if (blurred > 0) {
-            const vec4 back = back_at(pixel, own_px, is_known);
+        if (blurred + fine.wide_area > 0) {
+            const vec4 back = back_at(pixel, fine.wide_area > 0 ? max(own_px, kAnyPx) : own_px, is_known);
             // Light drawn pixel by pixel leaves the rest of the pixel's lens to cells, whichever pixel it comes from.
-            base = mix(base, back, is_known * min(blurred, 1 - fine.back_area));
+            base = mix(base, back, is_known * clamp(1 - fine.back_area, 0.0, blurred + fine.wide_area));
         }
     }
     float covers = min(area.x, 1.0);
@@ -323,7 +393,7 @@ void main() {
         near += open * fine.near, free -= open * fine.area;
     }
     vec4 made = near + free * base;
-    if (at.view != 0u) made = viewed(made, own_px, reaches, base, near);
+    if (at.view != 0u) made = viewed(made, own_px, reaches, is_fine, base, near);
     if (at.view == 0u || at.view == 4u) add_all_lamps(pixel, tile, reaches.x, area.x > 0, 1 - fine.area, made);
     if (at.view == 0u && at.has_layer != 0u) {
         const vec4 layer = finite_of(texelFetch(over, pixel, 0));

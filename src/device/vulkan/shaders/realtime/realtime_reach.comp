@@ -4,8 +4,8 @@
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 64) in;
 
-// Largest radius in front of focus; largest radius of pixels blurred pixel by pixel, behind focus (0.25: in focus) and in
-// front of it; the smallest signed radius that may hide a lamp behind focus (realtime_sprites.glsl: seen).
+// Largest radius in front of focus; a bit for each quarter with pixels blurred pixel by pixel, then one for each with these or
+// with light in focus; 0; the smallest signed radius that may hide a lamp behind focus (realtime_sprites.glsl: seen).
 layout(std430, binding = 0) readonly buffer Tiles { vec4 tiles[]; };
 layout(std430, binding = 1) writeonly buffer Reach { vec4 reach[]; };  // the first two as they reach a tile, the others of the tile alone
 layout(std430, binding = 2) readonly buffer Lamps { uvec4 lamps[]; };
@@ -74,6 +74,13 @@ uvec2 thinned(ivec2 tile, uvec2 mask, uint all) {
     return merge(tile, mask, side);
 }
 
+// A bit for each quarter of a tile that touches a quarter of this neighbour with its bit set.
+uint touched(uint quarters, ivec2 to) {
+    const uint kColumns[3] = {5u, 15u, 10u}, kRows[3] = {3u, 15u, 12u};  // first, all, last
+    const uint facing = kColumns[1 - to.x] & kRows[1 - to.y];
+    return (quarters & facing) == 0u ? 0u : kColumns[1 + to.x] & kRows[1 + to.y];
+}
+
 void main() {
     const int own = int(gl_GlobalInvocationID.x);
     if (own >= at.tiles.x * at.tiles.y) return;
@@ -82,7 +89,7 @@ void main() {
     const ivec2 far = ivec2((kLampReach * vec2(at.most_px, at.most_px * at.aspect) + kBorder) / float(kTile)) + 1;
     const ivec2 low = max(tile - far, ivec2(0)), high = min(tile + far, at.tiles - 1);
     float most = 0;
-    vec2 fine = vec2(0);
+    uint fine = 0u;
     uint all = 0;
     ivec4 box = ivec4(at.tiles, -1, -1);
     for (int y = low.y; y <= high.y; ++y)
@@ -93,7 +100,10 @@ void main() {
             vec2 gap = float(kTile) * vec2(max(abs(ivec2(x, y) - tile) - 1, ivec2(0)));
             gap.y /= at.aspect;
             if (radius > most && dot(gap, gap) <= (radius + 1) * (radius + 1)) most = radius;
-            if (gap == vec2(0)) fine = max(fine, found.yz);
+            if (gap == vec2(0)) {
+                const uint quarters = uint(found.y);
+                fine |= touched(quarters, ivec2(x, y) - tile) | touched(quarters >> 4, ivec2(x, y) - tile) << 4;
+            }
             const uvec4 lamp = lamps[y * at.tiles.x + x];
             const float wide = kLampReach * uintBitsToFloat(lamp.z) + kBorder;
             if ((lamp.x | lamp.y) == 0u || max(gap.x, gap.y) > wide) continue;
@@ -101,7 +111,7 @@ void main() {
             all += uint(bitCount(lamp.x) + bitCount(lamp.y));
         }
     boxes[own] = box;
-    reach[own] = vec4(most, max(fine.x, fine.y), tiles[own].xw);
+    reach[own] = vec4(most, float(fine), tiles[own].xw);
     const uvec4 lamp = lamps[own];
     kept[own] = uvec4(all > kMostLamps ? thinned(tile, lamp.xy, all) : lamp.xy, lamp.zw);
 }

@@ -133,7 +133,7 @@ float own_radius(ivec2 pixel, vec4 light, float radius) {
     if (share == 0) return radius;
     if (!is_dark) return brightness(near) >= 1.5 * brightness(behind) && share * brightness(near) > 0.5 * own ? near_px : radius;
     // Before wider discs the background's part of the pixel would stay as a sharp dot.
-    const float least_px = radius < kWholePx ? -kSharpPx : -0.5;
+    const float least_px = -kSharpPx;
     return share < 1 && near_px > least_px && near_px < kSharpPx && brightness(behind) < 4 * surroundings_at(pixel).x ? near_px : radius;
 }
 
@@ -148,7 +148,7 @@ void main() {
     measure_around();
     vec4 near_light = vec4(0), back_light = vec4(0);
     float near_area = 0, near_radius = 0, near_counts = 0, back_area = 0, back_weight = 0, back_radius = 0, back_counts = 0;
-    vec4 range = vec4(0, 0, 0, -at.most_px);  // realtime_reach.comp: tiles; the last with its sign turned
+    vec3 range = vec3(0, 0, -at.most_px);  // largest radius in front of focus, of small blurs, and the last of `tiles` with its sign turned
     vec2 lamp_place = vec2(0);
     vec4 lamp = vec4(0), own_radii;
     const int first_place = (2 * local.y + 1) * kAcross + 2 * local.x + 1;
@@ -173,9 +173,10 @@ void main() {
                 lamp_place += brightness(taken) * (vec2(corner) + 0.5);
             }
         }
-        // A quarter of a pixel marks tiles with light in focus, which `combine` may continue behind near surfaces.
-        const float behind_px = abs(radius) > 0.5 ? pixelwise(radius) : 0.25;
-        range = max(range, vec4(-radius, behind_px, pixelwise(-radius), radius < -at.most_px * (1.0 / float(kShadowSteps)) ? -at.most_px : -radius));
+        // Light in focus counts as a quarter of a pixel: `combine` may continue it behind near surfaces. In silhouettes in focus
+        // it blurs the background.
+        const float in_focus_px = radius == of_depth ? 0.25 : 1.0, fine_px = abs(radius) > 0.5 ? pixelwise(abs(radius)) : in_focus_px;
+        range = max(range, vec3(-radius, fine_px, radius < -at.most_px * (1.0 / float(kShadowSteps)) ? -at.most_px : -radius));
         if (radius < -2) {
             const float near = 0.25 * drawn;
             near_light += near * light, near_area += near;
@@ -200,20 +201,23 @@ void main() {
     part[kBack][own] = vec4(back_weight, back_radius, back_area, back_counts);
     part[kNearLight][own] = near_light;
     part[kNear][own] = vec4(near_area, near_radius, near_counts, 1 - back_area);
-    sums_around[own] = range;
+    sums_around[own].xyz = range;
     for (int k = 0; k < kLayers; ++k) imageStore(cells_1, ivec3(cell, k), part[k][own]);
     imageStore(cells_1, ivec3(cell, kRadii), own_radii);
     const ivec2 tile = ivec2(gl_WorkGroupID.xy);
+    uint quarters = 0u;  // a bit for each quarter of the tile with small blurs, then one for each with these or light in focus
     for (int side = 4; side > 0; side >>= 1) {
         barrier();
         const bool is_one = local.x < side && local.y < side;
         vec4 mean[kLayers];
-        vec4 both;
+        vec3 both;
+        if (side == 1 && own == 0u)
+            for (int i = 0; i < 4; ++i) quarters |= (sums_around[i].y > 0.5 ? 1u : 0u) << i | (sums_around[i].y > 0 ? 16u : 0u) << i;
         if (is_one) {
             const int a = 2 * local.y * 2 * side + 2 * local.x, b = a + 2 * side;
             for (int k = 0; k < kLayers; ++k)
                 mean[k] = 0.25 * (part[k][a] + part[k][a + 1] + part[k][b] + part[k][b + 1]);
-            both = max(max(sums_around[a], sums_around[a + 1]), max(sums_around[b], sums_around[b + 1]));
+            both = max(max(sums_around[a].xyz, sums_around[a + 1].xyz), max(sums_around[b].xyz, sums_around[b + 1].xyz));
         }
         barrier();
         if (is_one) {
@@ -224,8 +228,8 @@ void main() {
                 if (side == 2) imageStore(cells_4, ivec3(place, k), mean[k]);
                 if (side == 1) imageStore(cells_8, ivec3(place, k), mean[k]);
             }
-            sums_around[local.y * side + local.x] = both;
+            sums_around[local.y * side + local.x].xyz = both;
         }
     }
-    if (own == 0u) tiles[tile.y * at.tiles.x + tile.x] = vec4(sums_around[0].xyz, -sums_around[0].w);
+    if (own == 0u) tiles[tile.y * at.tiles.x + tile.x] = vec4(sums_around[0].x, float(quarters), 0, -sums_around[0].z);
 }
