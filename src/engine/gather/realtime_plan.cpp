@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 
 namespace petzval::engine {
@@ -240,7 +240,8 @@ RealtimeLens realtime_lens(const kernel::LensModel& lens, const RealtimeZones& z
     for (std::uint32_t zone = 0; zone < zones.count(); ++zone)
         add_zone(lens, zones.at(zone), near_px, far_px, made);
     share_reaches(zones.count(), made);
-    made.fours[1].r = std::bit_cast<float>(RealtimeLens::kMark);
+    static_assert(sizeof(RealtimeLens::kMark) == sizeof made.fours[1].r);
+    std::memcpy(&made.fours[1].r, RealtimeLens::kMark.data(), sizeof(RealtimeLens::kMark));
     return made;
 }
 
