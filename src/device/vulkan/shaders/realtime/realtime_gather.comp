@@ -149,9 +149,9 @@ End end_of(vec2 middle, vec2 way, float own_px, float most_px) {
         const vec4 back = textureLod(cells, place, level), near = textureLod(cells, vec3(place.xy, kNear), level);
         float behind = 0;
         if (near.x > kLeastArea && near.y < most_near_px * near.z) behind = ramp(0.6, 0.4, near_radius(near.xyz) / own_px);
-        const float area = back.z + behind * near.w;
-        if (area > 0.5) {
-            const float shows = open * ramp(0.5, 1.0, area);
+        const float area = back.z + behind * near.w, all = back.z + (behind > 0 ? near.w : 0.0);
+        if (all > 0.5) {
+            const float shows = open * ramp(0.5, 1.0, all) * (area / all);
             vec4 light = vec4(0);
             if (back.z > kLeastArea) light += textureLod(cells, vec3(place.xy, kBackLight), level) * (back.z / back.x);
             if (behind > 0) light += textureLod(cells, vec3(place.xy, kNearLight), level) * (behind * near.w / near.x);
