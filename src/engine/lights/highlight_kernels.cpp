@@ -1,6 +1,7 @@
 #include "engine/lights/highlight_kernels.h"
 
 #include "base/cancel.h"
+#include "kernel/model/radius_on_grid.h"
 
 #include <algorithm>
 
@@ -8,6 +9,20 @@ namespace petzval::engine {
 namespace {
 
 constexpr int kSizes[] = {1, 2, 4, kLargestSquare};
+// Radii at which it is seen where in a pixel a lamp lies. Less stays in its pixel; from the latter on, lamps
+// are taken as squares.
+constexpr float kPartsFromPx = 0.25f, kPartsUpToPx = 8;
+// Pieces from here on are parts of a pixel.
+constexpr int kFirstPart = 3 * int(std::size(kSizes)),
+              kPlaces = PartOfPixel::kMostEighths + 1 + PartOfPixel::kWhole;
+int piece_of(PartOfPixel part) {
+    return kFirstPart + kPlaces * (part.y + PartOfPixel::kMostEighths) + part.x + PartOfPixel::kMostEighths;
+}
+PartOfPixel part_of(int piece) {
+    const int place = piece - kFirstPart;
+    return {place % kPlaces - PartOfPixel::kMostEighths, place / kPlaces - PartOfPixel::kMostEighths};
+}
+
 constexpr std::size_t kPointBytes = std::size_t(160) << 20, kSquareBytes = std::size_t(192) << 20;
 
 // The kernel averaged over `size` x `size` places of its source, of which the first is the top-left pixel.
@@ -54,12 +69,23 @@ kernel::BankOptions steps(const EngineView& input, Seen seen) {
 
 HighlightKernels::HighlightKernels(const EngineView& input)
     : KernelSource("highlights", device::KernelUse::ByPixel),
+      lens_(input.lens.level(0)),
+      knows_parts_(!kernel::blurs_in_focus(lens_)),
       points_{kernel::KernelBank(input.lens.level(0), steps(input, Seen::Nothing)),
               kernel::KernelBank(input.lens.level(0), steps(input, Seen::Disc)),
               kernel::KernelBank(input.lens.level(0), steps(input, Seen::DiscAndRim))},
       squares_(kSquareBytes) {}
 
 device::KernelAsk HighlightKernels::ask(const Highlight& h, kernel::FieldPosition field, Seen seen) const {
+    const float radius = std::abs(h.coc_px);
+    if (knows_parts_ && !(h.part == PartOfPixel{}) && radius > kPartsFromPx && radius < kPartsUpToPx) {
+        const auto place = points_[std::size_t(Seen::Disc)].place(double(h.coc_px), field);
+        device::KernelAsk ask;
+        ask.zone = place.cell;
+        ask.step = place.step;
+        ask.piece = piece_of(h.part);
+        return ask;
+    }
     int size = 0;
     while (kSizes[size] < h.size) ++size;
     const kernel::KernelBank::Place place = points_[std::size_t(seen)].place(double(h.coc_px), field);
@@ -70,6 +96,10 @@ std::vector<device::KernelSource::Made> HighlightKernels::make(
     std::span<const device::KernelAsk> asks) const {
     std::vector<Made> made;
     for (const device::KernelAsk& ask : asks) {
+        if (ask.piece >= kFirstPart) {
+            made.push_back({squares_.get(ask, [&] { return of_part(ask); })});
+            continue;
+        }
         const int size = kSizes[ask.piece / 3];
         const auto of_point = [&] {
             return points_[std::size_t(ask.piece % 3)].kernel({ask.step, ask.zone});
@@ -78,6 +108,12 @@ std::vector<device::KernelSource::Made> HighlightKernels::make(
             {size == 1 ? of_point() : squares_.get(ask, [&] { return of_square(*of_point(), size); })});
     }
     return made;
+}
+
+kernel::PointSpread HighlightKernels::of_part(const device::KernelAsk& ask) const {
+    const kernel::KernelBank& bank = points_[std::size_t(Seen::Disc)];
+    const kernel::KernelBank::Place place{ask.step, ask.zone};
+    return spread_of_part(lens_, bank.radius_px(place), bank.middle(place), part_of(ask.piece));
 }
 
 std::size_t HighlightKernels::bytes() const {

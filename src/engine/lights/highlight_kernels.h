@@ -16,8 +16,8 @@ namespace petzval::engine {
 // The parts of a highlight's kernel that are bright enough to be seen, and must be precise.
 enum class Seen : int { Nothing, Disc, DiscAndRim };
 
-// Kernels of highlights. An ask's piece holds the size of the square and the parts that are seen; step and
-// zone are those of the bank of points of that precision.
+// Kernels of highlights. An ask's piece holds the size of the square and its Seen, or the part of a pixel;
+// step and zone are those of the bank of points of that precision.
 class HighlightKernels final : public device::KernelSource, public device::Memory::Thing {
 public:
     explicit HighlightKernels(const EngineView& input);
@@ -27,8 +27,12 @@ public:
     std::size_t bytes() const override;
 
 private:
+    kernel::PointSpread of_part(const device::KernelAsk& ask) const;
+
+    const kernel::LensModel& lens_;
+    bool knows_parts_;
     std::array<kernel::KernelBank, 3> points_;                // by Seen
-    mutable kernel::KernelCache<device::KernelAsk> squares_;  // of more than one pixel
+    mutable kernel::KernelCache<device::KernelAsk> squares_;  // of more than one pixel, or of a part of one
 };
 
 }  // namespace petzval::engine

@@ -126,6 +126,23 @@ float HighlightSplit::radius_of_light(int x, int y, float coc_px) const {
     return laws::same_surface(laws::kConnected, coc, coc_px) ? coc : coc_px;
 }
 
+PartOfPixel HighlightSplit::part_of_lamp(int x, int y) const {
+    if (colour_.empty()) return {};
+    const float around = surroundings_(x / kCell, y / kCell);
+    const auto along = [&](int dx, int dy) {
+        bool is_lamp = false;
+        const auto brightness = [&](int u, int v) {
+            const Rgba light = colour_(std::clamp(u, 0, width_ - 1), std::clamp(v, 0, height_ - 1));
+            is_lamp = is_lamp || !(dim(x, y, light) == light);
+            return luminance(light) - around;
+        };
+        const float before = brightness(x - dx, y - dy), own = brightness(x, y);
+        const float after = brightness(x + dx, y + dy);
+        return is_lamp ? part_along(before, own, after) : PartOfPixel::kPoint;
+    };
+    return {along(1, 0), along(0, 1)};
+}
+
 Rgba HighlightSplit::base(int x, int y, float coc_px, Rgba light) const {
     const float brightness = luminance(light);
     if (light.a <= kLeastAlpha) return {0, 0, 0, light.a};
@@ -153,6 +170,7 @@ struct Taken {
     Rgba colour;
     std::size_t sample = 0;
     float leaves = 1;  // share of it that leaves the pixel
+    PartOfPixel part{};
 };
 
 // The front-most bright samples of a block of kLargestSquare pixels on a side, to be divided into squares.
@@ -197,7 +215,8 @@ public:
                     samples.samples[c.taken.sample].colour.a > HighlightSplit::kLeastAlpha)
                     samples.samples[c.taken.sample].colour += c.taken.colour;
                 else
-                    out.push_back({x_ + x, y_ + y, 1, c.coc_px, c.taken.leaves * c.taken.colour});
+                    out.push_back(
+                        {x_ + x, y_ + y, 1, c.coc_px, c.taken.leaves * c.taken.colour, c.taken.part});
             }
     }
 
@@ -257,13 +276,14 @@ void take_pixel(const Rows& rows, int x, int y, std::optional<Block>& block, std
         const Rgba taken = sample.colour - base;
         const float coc = std::clamp(split.radius_of_light(x, rows.first_row + y, sample.coc_px),
                                      -kWidestHighlightPx, kWidestHighlightPx);
+        const PartOfPixel part = split.part_of_lamp(x, rows.first_row + y);
         sample.colour = base;
         if (in_block) {
-            out.push_back({x, y, 1, coc, leaves * taken});
+            out.push_back({x, y, 1, coc, leaves * taken, part});
             continue;
         }
         if (!block) block.emplace(x - x % kLargestSquare, y - y % kLargestSquare, rows.first_row);
-        block->put(x, y, coc, {taken, k, leaves}), in_block = true;
+        block->put(x, y, coc, {taken, k, leaves, part}), in_block = true;
     }
 }
 

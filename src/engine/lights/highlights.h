@@ -3,6 +3,7 @@
 
 #include "petzval/workers.h"
 
+#include "engine/lights/part_of_pixel.h"
 #include "engine/waist/engine.h"
 
 #include <algorithm>
@@ -16,6 +17,7 @@ struct Highlight {
     int size = 1;      // pixels on a side
     float coc_px = 0;
     Rgba colour;  // what was taken out of each of its pixels; a is 0: the surface itself stays in the base
+    PartOfPixel part{};  // of a single pixel
 };
 
 // A pixel is a highlight if its luminance is above
@@ -69,6 +71,8 @@ public:
     // The radius of a lamp's light in pixel (x, y): that of the brightest pixel around, unless that is
     // another surface, which the separation of silhouettes handles. Samples of a deep picture know it.
     float radius_of_light(int x, int y, float coc_px) const;
+    // The part of pixel (x, y) that a lamp fills; a point where none does, or nobody knows (deep pictures).
+    PartOfPixel part_of_lamp(int x, int y) const;
     // Up to this luminance, times its coverage, dim() leaves light as it is.
     float least_of_lamps() const { return white_ * rule_.lamp_floor; }
     float white() const { return white_; }

@@ -73,5 +73,30 @@ TEST(Highlights, TheRimOfALampStandsWhereTheLampDoes) {
     for (const Highlight& h : lights) EXPECT_EQ(h.coc_px, kLampPx) << h.x << ", " << h.y;
 }
 
+// A surface that gets brighter from pixel to pixel is not a lamp: its light lies in the middle of its pixels.
+TEST(Highlights, OnlyLampsFillAPartOfTheirPixel) {
+    Picture colour(kWidth, kHeight, Rgba{0.1f, 0.1f, 0.1f, 1});
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+            const float light = x < 32 ? 0.02f * float(x) : 0.1f;
+            colour(x, y) = {light, light, light, 1};
+        }
+    const Plane coc_px(kWidth, kHeight, 1.0f);
+    for (int x = 60; x < 64; ++x) {
+        const float light = x == 60 ? 25.0f : 100.0f;
+        colour(x, 30) = {light, light, light, 1};
+    }
+    EngineView input;
+    input.samples.colour = colour;
+    input.samples.coc_px = coc_px;
+    input.lens.frame = colour.rect();
+    input.services.workers = &one_thread();
+    const HighlightSplit split(input, {});
+    for (int x = 2; x < 30; ++x) EXPECT_EQ(split.part_of_lamp(x, 20), PartOfPixel{}) << x;
+    EXPECT_EQ(split.part_of_lamp(60, 30), (PartOfPixel{3, PartOfPixel::kPoint}));
+    EXPECT_EQ(split.part_of_lamp(62, 30), (PartOfPixel{PartOfPixel::kWhole, PartOfPixel::kPoint}));
+    EXPECT_EQ(split.part_of_lamp(63, 30), (PartOfPixel{-1, PartOfPixel::kPoint}));
+}
+
 }  // namespace
 }  // namespace petzval::engine

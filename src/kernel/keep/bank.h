@@ -45,6 +45,8 @@ public:
         const int step = step_of(coc_radius_px);
         return {step, cell_of(cells_of(step), field)};
     }
+    double radius_px(Place place) const { return radius_of(place.step); }
+    FieldPosition middle(Place place) const { return middle_of(cells_of(place.step), place.cell); }
     std::shared_ptr<const PointSpread> kernel(Place place) const { return kernel_of(place.step, place.cell); }
 
     // Makes all kernels between two signed radii, for every cell, as far as the memory limit allows.
