@@ -26,10 +26,15 @@ void hide_what_is_covered(BigVector<CocSample>& samples, std::size_t first) {
 
 constexpr float kTogetherPx = 0.5f, kApartPx = 1;
 
+float difference(Rgba a, Rgba b) { return std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b); }
+
 // Looks for the sample behind those from `first` on whose light makes the picture as bright as it is. Then
 // the ones in front may cover less together than they state, because the coverage of a sample includes parts
-// that others hide, but no less than the largest of them does. False: none explains it.
-bool is_from_behind(BigVector<CocSample>& samples, std::size_t first, float bright) {
+// that others hide, but no less than the largest of them does. False: none explains it. Unless the picture is
+// far brighter than they are, it is explained only if nearly all of the difference goes.
+bool is_from_behind(BigVector<CocSample>& samples, std::size_t first, Rgba picture, bool far_brighter) {
+    constexpr float kLeft = 0.1f;  // of the difference
+    const float bright = luminance(picture);
     Rgba front;
     float largest = 0;
     for (std::size_t k = first; k < samples.size(); ++k) {
@@ -38,10 +43,16 @@ bool is_from_behind(BigVector<CocSample>& samples, std::size_t first, float brig
         if (front.a > 0 && apart_px > kTogetherPx && dark < bright && bright < behind) {
             const float covers = std::max(largest, (behind - bright) / (behind - dark));
             const float scale = std::min(1.0f, covers / front.a);
-            if (scale < 1 || apart_px > 2 * kApartPx) {
+            const auto wrong_by = [&](float times) {
+                const float open = std::max(0.0f, 1 - times * front.a);
+                return difference(times * front + open * samples[k].colour, picture);
+            };
+            const bool explains = scale < 1 && wrong_by(scale) <= kLeft * wrong_by(1);
+            if (explains || (far_brighter && (scale < 1 || apart_px > 2 * kApartPx))) {
                 for (std::size_t m = first; m < k; ++m) samples[m].colour = scale * samples[m].colour;
                 return true;
             }
+            if (!far_brighter) return false;
         }
         largest = std::max(largest, samples[k].colour.a);
         front += samples[k].colour;
@@ -51,9 +62,9 @@ bool is_from_behind(BigVector<CocSample>& samples, std::size_t first, float brig
 
 // A stated sample is the mean of its surface over the pixel. The visible parts of samples from `first` on are
 // scaled to sum to the picture's colour, if they lie so close together that no lens sees past one of them to
-// the next, and if the picture is not far brighter than they are because of light from behind.
+// the next, and if the picture is not brighter than they are because of light from behind.
 void match_what_shows(BigVector<CocSample>& samples, std::size_t first, Rgba picture) {
-    constexpr float kCovered = 1 - 1e-6f, kDark = 1e-9f, kFarBrighter = 4;
+    constexpr float kCovered = 1 - 1e-6f, kDark = 1e-9f, kBrighter = 1.25f, kFarBrighter = 4;
     float covered = 0, in_front = 0, span_px = 0;
     Rgba shown;
     std::size_t end = first;
@@ -65,8 +76,8 @@ void match_what_shows(BigVector<CocSample>& samples, std::size_t first, Rgba pic
         span_px = s.coc_px - samples[first].coc_px;
         if (s.colour.a > 0) shown += std::min(1.0f, (1 - in_front) / s.colour.a) * s.colour;
     }
-    const float bright = luminance(picture);
-    if (bright > kFarBrighter * luminance(shown) && is_from_behind(samples, first, bright)) return;
+    const float brighter = luminance(picture) / std::max(luminance(shown), kDark);
+    if (brighter > kBrighter && is_from_behind(samples, first, picture, brighter > kFarBrighter)) return;
     const float together = std::clamp((kApartPx - span_px) / (kApartPx - kTogetherPx), 0.0f, 1.0f);
     const auto times = [&](float is, float want) { return is > kDark ? 1 + together * (want / is - 1) : 1; };
     const float r = times(shown.r, picture.r), g = times(shown.g, picture.g), b = times(shown.b, picture.b);

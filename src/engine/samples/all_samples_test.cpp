@@ -3,6 +3,8 @@
 
 #include "base/parallel.h"
 
+#include <array>
+
 #include <gtest/gtest.h>
 
 namespace petzval::engine {
@@ -40,24 +42,38 @@ TEST(AllSamples, ATranslucentOneHasNoRoomThere) {
     EXPECT_EQ(samples[1].coc_px, kSkyPx);
 }
 
-// Two black samples state 0.4 and 0.62, but the second is hidden in part by the first: 0.375 of a sign shows.
-TEST(AllSamples, LightThatThePictureShowsBetweenThemStays) {
-    const float shows = 0.375f;
-    const Picture colour(1, 1, Rgba{shows, shows, shows, 1});
+// One pixel that shows this colour, its two dark samples in front of a sign, and the sign itself.
+std::vector<CocSample> dark_before_a_sign(Rgba shown, float first, float second, Rgba sign) {
+    const Picture colour(1, 1, shown);
     const Plane radii(1, 1, -0.08f);
-    const auto behind = DeepPicture::made_of(1, 1, [](int, int, std::vector<DeepSample>& into) {
-        into.push_back({{0, 0, 0, 0.4f}, -0.082f, -0.082f});
-        into.push_back({{0, 0, 0, 0.62f}, -0.08f, -0.08f});
-        into.push_back({{1, 1, 1, 1}, 0.93f, 0.93f});
+    const auto behind = DeepPicture::made_of(1, 1, [&](int, int, std::vector<DeepSample>& into) {
+        into.push_back({{0, 0, 0, first}, -0.082f, -0.082f});
+        into.push_back({{0, 0, 0, second}, -0.08f, -0.08f});
+        into.push_back({sign, 0.93f, 0.93f});
     });
     const StatedPicture stated{.colour = colour,
                                .depth = radii,
                                .behind = &behind,
                                .meaning = StatedRadii{[](float radius) { return radius; }}};
     const CocSamples all = all_samples(stated, one_thread());
-    ASSERT_EQ(all.samples.size(), 3u);
-    EXPECT_NEAR(all.samples[0].colour.a + all.samples[1].colour.a, 1 - shows, 0.02f);
-    EXPECT_EQ(all.samples[2].colour.a, 1);
+    return {all.samples.begin(), all.samples.end()};
+}
+
+// Two black samples state 0.4 and 0.62, but the second is hidden in part by the first: 0.375 of a sign shows.
+// So do 0.28 and 0.44, which leave 0.28 of it, where 0.56 shows.
+TEST(AllSamples, LightThatThePictureShowsBetweenThemStays) {
+    for (const auto& [first, second, shows] : {std::array{0.4f, 0.62f, 0.375f}, {0.28f, 0.44f, 0.56f}}) {
+        const auto samples = dark_before_a_sign({shows, shows, shows, 1}, first, second, {1, 1, 1, 1});
+        ASSERT_EQ(samples.size(), 3u);
+        EXPECT_NEAR(samples[0].colour.a + samples[1].colour.a, 1 - shows, 0.02f);
+        EXPECT_EQ(samples[2].colour.a, 1);
+    }
+}
+
+TEST(AllSamples, LightOfAnotherColourIsNotFromBehind) {
+    const auto samples = dark_before_a_sign({0.9f, 0.5f, 0.1f, 1}, 0.28f, 0.44f, {0.2f, 0.9f, 0.9f, 1});
+    ASSERT_EQ(samples.size(), 3u);
+    EXPECT_FLOAT_EQ(samples[0].colour.a + samples[1].colour.a, 0.72f);
 }
 
 }  // namespace
