@@ -68,8 +68,8 @@ struct RealtimeLens {
     static constexpr int kMostTaps = 127, kSpirals = 4, kGridTaps = 72, kShares = 64;
     static constexpr std::size_t kOfLamps = 2 * (LampKernels::kSteps + LampKernels::weights());
     static_assert(kOfLamps == 67800, "as shaders/realtime.glsl has it");
-    // Names this layout: change its last letter with the place or the meaning of any number. It has the bytes
-    // of the x of the first tap, which lies in the middle, and is 1e-8 as a number.
+    // Names this layout: change its last letter with the place or the meaning of any number. The mark is
+    // stored as the x of the first tap. That tap lies in the middle, and the mark read as a number is 1e-8.
     static constexpr std::array<char, 4> kMark{'P', 'Z', 'L', '2'};
     static constexpr std::size_t kMarkByte = sizeof(Rgba);
     std::vector<Rgba> fours;
