@@ -57,6 +57,25 @@ TEST_F(EmbeddedPass, APartOfItsSizeIsDrawnAsAPassOfThatSizeDrawsIt) {
     EXPECT_EQ(stage.drawn(pass.get(), 2, 0, kSize), stage.drawn(pass.get()));
 }
 
+// A frame that is smaller than the pass's images continues its border beyond itself. No surface there reaches
+// farther than those of the frame.
+TEST_F(EmbeddedPass, NothingBeyondAPartReachesIntoIt) {
+    constexpr VkExtent2D kWhole = {200, 160};
+    Stage stage(host_, scene_of(kWhole));
+    stage.show(PETZVAL_PASS_TILES);
+    const Pass pass = open(kWhole);
+    stage.drawn(pass.get());
+    for (const VkExtent2D part : {VkExtent2D{96, 54}, VkExtent2D{128, 96}, VkExtent2D{200, 33}}) {
+        const Floats made = stage.drawn(pass.get(), 2, 0, part);
+        float most = 0;
+        for (std::size_t y = 0; y < part.height; ++y)
+            for (std::size_t x = 0; x < part.width; ++x)
+                most = std::max(most, made[(y * kWhole.width + x) * 4]);
+        EXPECT_GT(most, 0.1f) << "nothing in front of focus";
+        EXPECT_LE(most, 1.0f) << part.width << " x " << part.height;
+    }
+}
+
 TEST_F(EmbeddedPass, DepthMeansTheSameReversedAndOrdinary) {
     const Pass pass = open(kSize);
     const Scene scene = scene_of(kSize);

@@ -103,10 +103,8 @@ const float kApart = 0.4;  // pixels: radii that differ by less are blurred alik
 
 // The signed radius of a pixel of the tile. A silhouette pixel shows a near surface and its background, and
 // may have the background's depth. It gets the near surface's radius if that gives most of its light; or if that is hardly
-// blurred, because the pixel is then part of a sharp outline. `radius`: that of its depth.
-float own_radius(ivec2 pixel, vec4 light, float radius) {
-    const ivec2 in_window = pixel - kTile * ivec2(gl_WorkGroupID.xy) + 1;
-    const int place = in_window.y * kAcross + in_window.x;
+// blurred, because the pixel is then part of a sharp outline. `place`: its own in the window; `radius`: that of its depth.
+float own_radius(ivec2 pixel, int place, vec4 light, float radius) {
     const float kSharpPx = 2;
     const float own = brightness(light);
     vec4 bright = light, dark = light;
@@ -155,13 +153,13 @@ void main() {
     const vec4 nearest = nearest_around(first_place);
     for (int i = 0; i < 4; ++i) {
         // Continues the border beyond the picture.
-        const ivec2 corner = ivec2(i & 1, i >> 1), pixel = min(2 * cell + corner, at.size - 1);
-        const bool is_inside = pixel == 2 * cell + corner;
+        const ivec2 corner = ivec2(i & 1, i >> 1), drawn_at = 2 * cell + corner, pixel = min(drawn_at, at.size - 1);
+        const bool is_inside = pixel == drawn_at;
         vec4 light = light_of(texelFetch(colours, pixel, 0));
         const int place = first_place + (i >> 1) * kAcross + (i & 1);
         const float of_depth = window[place];
         float radius = of_depth;
-        if (nearest[i] <= of_depth - kApart || !is_inside) radius = own_radius(pixel, light, of_depth);
+        if (nearest[i] <= of_depth - kApart) radius = own_radius(drawn_at, place, light, of_depth);
         own_radii[i] = with_mark(radius, radius != of_depth);
         const float drawn = blurred_share(abs(radius));  // by cells
         const vec4 bright = lamp_of(pixel, light);
