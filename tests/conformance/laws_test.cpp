@@ -34,6 +34,21 @@ TEST_P(Law, AConstantPictureStaysConstantHoweverWideTheDiscs) {
     }
 }
 
+// A lit window in a dark wall over a grey floor, cut by the border. The lens sees as much of the window in
+// the border's pixels as farther inside.
+TEST_P(Law, ABrightSurfaceThatTheBorderCutsContinuesBeyondIt) {
+    for (const float coc : {-3.0f, 1.5f, 3.0f}) {
+        Shot shot = flat(64, 40, {0.3f, 0.3f, 0.3f, 1}, coc);
+        for (int y = 0; y < 20; ++y)
+            for (int x = 0; x < 64; ++x) {
+                const bool is_window = y < 10 && x >= 26 && x < 38;
+                shot.colour(x, y) = is_window ? Rgba{1, 0.8f, 0.6f, 1} : Rgba{0.01f, 0.01f, 0.01f, 1};
+            }
+        const Picture made = picture(shot);
+        for (int y = 0; y < 5; ++y) EXPECT_NEAR(made(32, y).r, 1, 0.03) << coc << " row " << y;
+    }
+}
+
 // Mean of pixels that lie differently in the cells of coarser grids, bright and faint, among larger radii or
 // not.
 Spot mean_spot(const Drawer& drawer, float coc, Quality quality, int pixels) {

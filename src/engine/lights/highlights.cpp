@@ -147,11 +147,9 @@ Rgba HighlightSplit::base(int x, int y, float coc_px, Rgba light) const {
     const float brightness = luminance(light);
     if (light.a <= kLeastAlpha) return {0, 0, 0, light.a};
     if (std::abs(coc_px) > kWidestHighlightPx || is_dim(brightness, light.a)) return light;
+    if (x == 0 || y == 0 || x == width_ - 1 || y == height_ - 1) return dim(x, y, light);
     const float surroundings = surroundings_(x / kCell, y / kCell);
-    const bool outermost = x == 0 || y == 0 || x == width_ - 1 || y == height_ - 1;
-    const float bound =
-        light.a * (outermost ? white_ * rule_.contested_floor + 2 * rule_.factor * surroundings
-                             : floor_at(x, y, coc_px) + rule_.factor * surroundings);
+    const float bound = light.a * (floor_at(x, y, coc_px) + rule_.factor * surroundings);
     if (brightness <= bound) return light;
     const Rgba scaled = light * (bound / brightness);
     return {scaled.r, scaled.g, scaled.b, light.a};

@@ -98,5 +98,26 @@ TEST(Highlights, OnlyLampsFillAPartOfTheirPixel) {
     EXPECT_EQ(split.part_of_lamp(63, 30), (PartOfPixel{-1, PartOfPixel::kPoint}));
 }
 
+// A lit window before a wall with a lamp, both cut by the border of the picture, and a wire in focus near
+// them.
+TEST(Highlights, TheBorderCutsOffLampsAndNoSurfaces) {
+    const Rgba window{1, 1, 1, 1}, lamp{100, 100, 100, 1};
+    Picture colour(kWidth, kHeight, Rgba{0.3f, 0.3f, 0.3f, 1});
+    const Plane coc_px(kWidth, kHeight, 3.0f);
+    for (int y = 0; y < 20; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+            const bool is_window = y < 10 && x >= 20 && x < 32, is_lamp = y < 2 && x >= 60 && x < 62;
+            colour(x, y) = is_window ? window : is_lamp ? lamp : Rgba{0.01f, 0.01f, 0.01f, 1};
+        }
+    EngineView input;
+    input.samples.colour = colour;
+    input.samples.coc_px = coc_px;
+    input.lens.frame = colour.rect();
+    input.services.workers = &one_thread();
+    const HighlightSplit split(input, {});
+    EXPECT_EQ(split.base(26, 0, 3, window), window);
+    EXPECT_LT(luminance(split.base(60, 0, 3, lamp)), 0.1f);
+}
+
 }  // namespace
 }  // namespace petzval::engine

@@ -13,6 +13,7 @@ constexpr float kDark = 1e-3f;  // keeps reciprocals finite; far below anything 
 constexpr float kWidestPx = 1024;
 constexpr float kNoRayBetweenPx = 0.02f;  // of radius
 constexpr float kOverSurroundings = 1.5f, kOverWhite = 0.25f;
+constexpr float kLampOverSurroundings = 8, kLampOverWhite = 2;  // light that ends at the frame's border
 
 // The mean over the square of `reach` pixels to every side of each pixel, as much of it as lies in the
 // picture.
@@ -57,11 +58,14 @@ float white_of(View<const Rgba> picture) {
     return float(4 * sum / (double(picture.width()) * picture.height()));
 }
 
-// The fraction of a sample's luminance that stays in the surface.
-float share_that_stays(const CocSample& s, float surroundings, float white) {
+// The fraction of a sample's luminance that stays in the surface. At the frame's border all but a lamp's
+// does: a surface continues beyond the border, points do not.
+float share_that_stays(const CocSample& s, float surroundings, float white, bool is_at_border) {
     if (s.colour.a <= kLeastCoverage) return 0;
     const float light = luminance(s.colour);
-    const float bound = s.colour.a * (kOverSurroundings * surroundings + kOverWhite * white);
+    const float over = is_at_border ? kLampOverSurroundings * surroundings + kLampOverWhite * white
+                                    : kOverSurroundings * surroundings + kOverWhite * white;
+    const float bound = s.colour.a * over;
     if (std::abs(s.coc_px) > kWidestPx || light - bound <= kOverWhite * white) return 1;
     return bound / light;
 }
@@ -85,13 +89,13 @@ std::vector<BrightPoint> take_bright_points(CocSamples& samples, const EngineVie
     std::vector<BrightPoint> points;
     for (int y = 0; y < samples.height(); ++y)
         for (int x = 0; x < samples.width; ++x) {
-            const bool outermost = x == 0 || y == 0 || x == samples.width - 1 || y == samples.height() - 1;
+            const bool is_at_border = x == 0 || y == 0 || x == samples.width - 1 || y == samples.height() - 1;
             const std::size_t pixel = std::size_t(y) * std::size_t(samples.width) + std::size_t(x);
             const std::size_t first = samples.first[pixel];
             int facets = 0;
             for (std::size_t k = first; k < samples.first[pixel + 1]; ++k) {
                 CocSample& s = samples.samples[k];
-                const float share = share_that_stays(s, (outermost ? 2 : 1) * surroundings(x, y), white);
+                const float share = share_that_stays(s, surroundings(x, y), white, is_at_border);
                 const int in_front = s.colour.a > kLeastCoverage ? facets++ : facets;
                 if (share >= 1) continue;
                 if (!dims_itself && is_covered(all.subspan(first, k + 1 - first))) continue;
