@@ -76,6 +76,34 @@ TEST_F(EmbeddedPass, NothingBeyondAPartReachesIntoIt) {
     }
 }
 
+// The background behind a near surface is searched for at up to three times its radius. Cells so far beyond a
+// small frame hold an earlier frame.
+TEST_F(EmbeddedPass, NothingOfAnEarlierFrameIsFoundBehindANearSurface) {
+    constexpr VkExtent2D kWhole = {400, 64}, kPart = {24, 64};
+    const Pass pass = open(kWhole);
+    const auto drawn_after = [&](float light_beyond) {
+        Scene scene{kWhole, {}, {}, {}};
+        for (std::uint32_t i = 0; i < kWhole.width * kWhole.height; ++i) {
+            const std::uint32_t x = i % kWhole.width;
+            const float light = x < kPart.width ? 0.1f : light_beyond;
+            scene.colour.insert(scene.colour.end(), {light, light, light, 1});
+            scene.metres.push_back(x >= 8 && x < kPart.width ? 0.03f : 2.0f);
+        }
+        Stage stage(host_, scene);
+        const auto drawn = [&](VkExtent2D part) {
+            return stage.drawn_by([&] {
+                const petzval_camera camera = camera_at(2);
+                petzval_pass_frame frame = stage.frame(0, part);
+                frame.largest_radius_px = 64, frame.camera = &camera;
+                return petzval_pass_record(pass.get(), &frame);
+            });
+        };
+        drawn(kWhole);
+        return cropped(drawn(kPart), kWhole, kPart);
+    };
+    EXPECT_LT(largest_difference(drawn_after(4), drawn_after(0)), 1e-6f);
+}
+
 TEST_F(EmbeddedPass, DepthMeansTheSameReversedAndOrdinary) {
     const Pass pass = open(kSize);
     const Scene scene = scene_of(kSize);

@@ -77,6 +77,9 @@ float pixelwise(float radius_px) { return radius_px > 0.5 && radius_px < kWholeP
 // The radius that cells gather over: with the blur of the cells themselves (boxes and tents of two pixels)
 // the disc has the right second moment.
 float gathered_radius(float radius_px) { return sqrt(max(radius_px * radius_px - 4, 1.0)); }
+// The last place among cells of this size that may be read: a frame smaller than the images has cells around it only as far
+// as discs reach (pass.cpp: record_steps).
+vec2 farthest_place(vec2 texel) { return 0.5 * texel * (vec2(at.size) + at.most_px * vec2(1, at.aspect)); }
 
 // Weights of the two ends of a line through hidden background, at these distances in pixels. likely: 0 for an end that was not
 // found. Alike and close ends count most.

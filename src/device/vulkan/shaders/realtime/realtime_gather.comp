@@ -21,6 +21,7 @@ int first_grid, grid_weight;      // the same of whole cells
 int far_side;                     // from a weight in front of focus to that behind it
 float tap_side;                   // of the square that a tap reads on a disc of radius 1
 vec2 texel;                       // size of a cell
+vec2 farthest;                    // where cells around the frame end
 const float kMostShare = float(kShares - 1);
 // A disc of cells: reads at middle + tap * scale, from this level.
 struct Disc {
@@ -145,7 +146,7 @@ End end_of(vec2 middle, vec2 way, float own_px, float most_px) {
     End end = End(vec4(0), 0, 0, 0, 0);
     float open = 1, away = min(kNearestPx, most_px), level = log2(away / 8);
     for (; open > 0.05; away *= kFarther, level += log2(kFarther)) {
-        const vec3 place = vec3(from + away * per_px, kBack);
+        const vec3 place = vec3(min(from + away * per_px, farthest), kBack);
         const vec4 back = textureLod(cells, place, level), near = textureLod(cells, vec3(place.xy, kNear), level);
         float behind = 0;
         if (near.x > kLeastArea && near.y < most_near_px * near.z) behind = ramp(0.6, 0.4, near_radius(near.xyz) / own_px);
@@ -254,6 +255,7 @@ void main() {
     first_grid = 1 + kSpirals * taps;
     far_side = kShares * all_taps_of(head);
     texel = 1 / vec2(8 * at.tiles);
+    farthest = farthest_place(texel);
     // Each set takes the nearest zone of another fraction, so that the mean of the four interpolates between zones.
     const vec2 fraction = (vec2(set, (set & 1) * 2 + (set >> 1)) + 0.5) / float(kSpirals);
     const ivec2 zone = ivec2(zone_place(2 * middle, head.zw) + fraction);

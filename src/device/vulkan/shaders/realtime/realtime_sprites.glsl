@@ -99,9 +99,11 @@ float seen(vec2 from, vec2 to, float radius, float per_radius, float last) {
 float let_through(vec2 from, vec2 to, bool is_near, float per_radius, float near_px) {
     const float begin = is_near ? 1.0 : 0.0, step_of = (near_px * per_radius - begin) / float(kShadowSteps);
     if (step_of <= 0) return 1;
-    const vec2 step_px = step_of * (is_near ? from - to : to - from), step_at = step_px * (0.5 * texel);
+    const vec2 step_px = step_of * (is_near ? from - to : to - from);
     const float level = clamp(0.5 * log2(0.25 * dot(step_px, step_px)), 0.0, 3.0), per_step = 1 / step_of;
-    vec2 place = (is_near ? from : to) * (0.5 * texel);
+    vec2 place = (is_near ? from : to) * (0.5 * texel), step_at = step_px * (0.5 * texel);
+    // The way past a small lamp may be longer than cells go on.
+    if (is_near) step_at = min(step_at, (farthest_place(texel) - place) / float(kShadowSteps));
     float hidden = 0;
     [[dont_unroll]] for (float way = 1; way <= float(kShadowSteps); ++way) {
         place += step_at;
