@@ -281,7 +281,7 @@ void blur_background_in(ivec2 place) {
             }
     if (count == 0) return;
     behind *= 1 / count;
-    const ivec2 last = at.size - 1, pixel = clamp(8 * ivec2(gl_WorkGroupID.xy) - kRim + place, ivec2(0), last);
+    const ivec2 last = at.size - 1, pixel = 8 * ivec2(gl_WorkGroupID.xy) - kRim + place;  // as in the window: also beyond the picture
     vec3 near = vec3(0);
     count = 0;
     [[dont_unroll]] for (int y = -1; y <= 1; ++y)
@@ -296,7 +296,7 @@ void blur_background_in(ivec2 place) {
     const float along = dot(light, apart), most = dot(apart, apart);
     if (along <= 0 || along >= most || along * along < kBetween * most * dot(light, light)) return;
     float is_known;
-    const vec4 blurred = back_at(pixel, kAnyPx, is_known);
+    const vec4 blurred = back_at(clamp(pixel, ivec2(0), last), kAnyPx, is_known);
     window[own] = max(window[own] + is_known * (1 - along / most) * (blurred - behind), vec4(0));
 }
 // All invocations of the group call it together, each for the pixels that it has read.
