@@ -310,6 +310,31 @@ TEST_F(Realtime, ATwigInFocusShowsAFarBackgroundBlurred) {
     }
 }
 
+// Twigs in focus whose half-covered rims have the depth of a far background, up to the border of the picture:
+// its four sides are alike.
+TEST_F(Realtime, AMirroredFrameIsTheMirrorImage) {
+    constexpr int kWidth = 96, kHeight = 64;
+    const Rgba sky = {0.8f, 0.6f, 0.4f, 1};
+    Shot shot = flat(kWidth, kHeight, sky, 16), mirrored = flat(kWidth, kHeight, sky, 16);
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+            const int down = (y + 3 * x / 4) % 9, other = kWidth - 1 - x;
+            if (down > 3) continue;
+            const float light = 0.02f * float((x * 7 + y * 13) % 11), covers = down % 3 == 0 ? 0.5f : 1.0f;
+            shot.colour(x, y) = covers * Rgba{light, light, light, 1} + (1 - covers) * sky;
+            mirrored.colour(other, y) = shot.colour(x, y);
+            if (covers == 1) shot.coc_px(x, y) = mirrored.coc_px(other, y) = 0;
+        }
+    for (Session& session : sessions_) {
+        const Picture made = drawn(session, shot), other = drawn(session, mirrored);
+        float apart = 0;
+        for (int y = 0; y < kHeight; ++y)
+            for (int x = 0; x < kWidth; ++x)
+                apart = std::max(apart, std::abs(made(x, y).g - other(kWidth - 1 - x, y).g));
+        EXPECT_LT(apart, 0.02f);
+    }
+}
+
 // A bright square behind focus, seen past a surface far in front of focus: cells have different taps, and
 // their grid does not show.
 TEST_F(Realtime, LightBehindANearSurfaceShowsNoGrid) {

@@ -110,14 +110,16 @@ float own_radius(ivec2 pixel, int place, vec4 light, float radius) {
     vec4 bright = light, dark = light;
     vec2 found = vec2(radius);  // of the brightest nearer pixel around, and of the darkest
     ivec2 to_bright = ivec2(0), to_dark = ivec2(0);
-    // Loops, because nine pixels at once need half as many registers again.
-    [[dont_unroll]] for (int y = -1; y <= 1; ++y)
-        [[dont_unroll]] for (int x = -1; x <= 1; ++x) {
-            const float reaches = window[place + y * kAcross + x];
+    // Loops, because nine pixels at once need half as many registers again. Their own row and column come first: of pixels
+    // alike, these are not copies beyond the border of the picture.
+    [[dont_unroll]] for (int row = 0; row < 3; ++row)
+        [[dont_unroll]] for (int column = 0; column < 3; ++column) {
+            const ivec2 to = ivec2(column < 2 ? column : -1, row < 2 ? row : -1);
+            const float reaches = window[place + to.y * kAcross + to.x];
             if (reaches > radius - kApart) continue;
-            const vec4 colour = light_of(texelFetch(colours, clamp(pixel + ivec2(x, y), ivec2(0), at.size - 1), 0));
-            if (brightness(colour) > brightness(bright)) bright = colour, found.x = reaches, to_bright = ivec2(x, y);
-            if (brightness(colour) < brightness(dark)) dark = colour, found.y = reaches, to_dark = ivec2(x, y);
+            const vec4 colour = light_of(texelFetch(colours, clamp(pixel + to, ivec2(0), at.size - 1), 0));
+            if (brightness(colour) > brightness(bright)) bright = colour, found.x = reaches, to_bright = to;
+            if (brightness(colour) < brightness(dark)) dark = colour, found.y = reaches, to_dark = to;
         }
     const bool is_dark = to_bright == ivec2(0);
     const ivec2 to = is_dark ? to_dark : to_bright;
