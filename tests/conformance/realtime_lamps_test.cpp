@@ -193,6 +193,49 @@ TEST_F(Realtime, ASilhouettePixelDoesNotHideALamp) {
     }
 }
 
+// A lamp near focus, of about a pixel's radius, before a surface of another radius: its rim pixels show a
+// part of it and have that surface's depth. The truth is the mean of many points of lamp, lens and pixel;
+// light above 1 is cut, as displays do.
+TEST_F(Realtime, ASmallLampNearFocusIsNotWider) {
+    constexpr int kSide = 16, kPoints = 576, kStep = 7, kRays = kPoints * ((kPoints + kStep - 1) / kStep);
+    constexpr float kLight = 40;
+    const auto disc = [](int i) {  // point of a spiral over a disc of radius 1
+        const double r = std::sqrt((i + 0.5) / kPoints), angle = 2.399963 * i;
+        return std::pair{r * std::cos(angle), r * std::sin(angle)};
+    };
+    const auto lamp = [&](double middle_x, double middle_y, double radius, double coc_px) {
+        Picture made(kSide, kSide, {0, 0, 0, 1});
+        for (int i = 0; i < kPoints; ++i)
+            for (int j = 0; j < kPoints; j += kStep) {
+                const auto [x, y] = disc(i);
+                const auto [u, v] = disc((i * 131 + j) % kPoints);
+                Rgba& p =
+                    made(int(middle_x + radius * x + coc_px * u), int(middle_y + radius * y + coc_px * v));
+                p.g += float(kLight * 3.141593 * radius * radius / kRays);
+            }
+        return made;
+    };
+    for (Session& session : sessions_)
+        for (const auto& [radius, coc_px] :
+             {std::pair{0.8, 0.55}, std::pair{0.8, 1.0}, std::pair{1.3, 1.0}}) {
+            double apart = 0, all = 0;
+            for (const double at : {8.1, 8.3, 8.5, 8.8, 9.0}) {
+                Shot shot = flat(kSide, kSide, {0, 0, 0, 1}, 1.2f);
+                shot.colour = lamp(at, at + 0.2, radius, 0);
+                for (std::size_t i = 0; i < shot.colour.size(); ++i)
+                    if (shot.colour.pixels()[i].g > 0.5f * kLight) shot.coc_px.pixels()[i] = float(coc_px);
+                const Picture truth = lamp(at, at + 0.2, radius, coc_px), made = drawn(session, shot);
+                for (std::size_t i = 0; i < made.size(); ++i) {
+                    const auto shown = [i](const Picture& p) {
+                        return double(std::min(p.pixels()[i].g, 1.0f));
+                    };
+                    apart += std::abs(shown(made) - shown(truth)), all += shown(truth);
+                }
+            }
+            EXPECT_LT(apart / all, 0.2) << radius << " px, blurred by " << coc_px << " px";
+        }
+}
+
 // A lamp in focus whose rim is filtered over its background and has the depth of that: no disc around it.
 TEST_F(Realtime, ALampInFocusHasNoHalo) {
     Shot shot = flat(96, 64, {0.02f, 0.02f, 0.02f, 1}, 12);

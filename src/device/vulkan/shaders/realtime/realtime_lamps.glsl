@@ -57,10 +57,19 @@ float radius_of_brightest(ivec2 low, int side, out float most, out float all) {
     return radius;
 }
 
+// The signed radius of a pixel of a lamp. `combine` draws discs below 2 px as if their light filled a pixel. A lamp fills a
+// share of the pixel only: as bright as the pixel is, of the brightest beside it. So the disc is narrower, by second moments.
+// Dim pixels are not narrowed, because they receive light through their own discs.
+float radius_of_part(float of_lamp, float share) {
+    const float less = ramp(0.0, 0.5, share) * (1 - share * share) / 3;
+    const float radius = sqrt(max(of_lamp * of_lamp - less, 0.0));
+    return of_lamp < 0 ? -radius : radius;
+}
+
 // The light of a lamp in this pixel. A lamp stands out from the surfaces around it. It also has at least a sixteenth of the
 // light that all discs of its radius bring to a pixel, so about sixteen lamps at most reach a pixel. Taps show all other
-// light.
-vec4 lamp_of(ivec2 pixel, vec4 light) {
+// light. radius: that of the pixel; that of a small lamp replaces it.
+vec4 lamp_of(ivec2 pixel, vec4 light, inout float radius) {
     const float kStandsOut = 1.0 / 16;
     const float own = brightness(light);
     if (own <= 4 * uintBitsToFloat(least_around)) return vec4(0);  // most pixels, before any interpolation
@@ -68,7 +77,9 @@ vec4 lamp_of(ivec2 pixel, vec4 light) {
     float floor_light = 4 * around.x;
     if (own <= floor_light) return vec4(0);
     float most, all;
-    const float radius = abs(radius_of_brightest(pixel - 1, 3, most, all)), disc = max(3.14159 * radius * radius, 1.0);
-    floor_light += max(kStandsOut * disc * own / all, 2.0) * mean_over(radius, around.y);
-    return vec4(light.rgb * (1 - around.x / own) * smoothstep(1.0, 2.0, own / floor_light), 0);
+    const float of_lamp = radius_of_brightest(pixel - 1, 3, most, all), wide = abs(of_lamp), disc = max(3.14159 * wide * wide, 1.0);
+    floor_light += max(kStandsOut * disc * own / all, 2.0) * mean_over(wide, around.y);
+    const float stands_out = smoothstep(1.0, 2.0, own / floor_light);
+    radius = mix(radius, radius_of_part(of_lamp, own / most), stands_out * (1 - blurred_share(max(wide, abs(radius)))));
+    return vec4(light.rgb * (1 - around.x / own) * stands_out, 0);
 }

@@ -162,9 +162,10 @@ void main() {
         const float of_depth = window[place];
         float radius = of_depth;
         if (nearest[i] <= of_depth - kApart) radius = own_radius(drawn_at, place, light, of_depth);
-        own_radii[i] = with_mark(radius, radius != of_depth);
+        const bool is_marked = radius != of_depth;
+        const vec4 bright = lamp_of(pixel, light, radius);
+        own_radii[i] = with_mark(radius, is_marked);
         const float drawn = blurred_share(abs(radius));  // by cells
-        const vec4 bright = lamp_of(pixel, light);
         if (bright != vec4(0)) {
             light -= bright;
             if (is_inside) {
@@ -175,7 +176,7 @@ void main() {
         }
         // Light in focus counts as a quarter of a pixel: `combine` may continue it behind near surfaces. In silhouettes in focus
         // it blurs the background.
-        const float in_focus_px = radius == of_depth ? 0.25 : 1.0, fine_px = abs(radius) > 0.5 ? pixelwise(abs(radius)) : in_focus_px;
+        const float in_focus_px = is_marked ? 1.0 : 0.25, fine_px = abs(radius) > 0.5 ? pixelwise(abs(radius)) : in_focus_px;
         range = max(range, vec3(-radius, fine_px, radius < -at.most_px * (1.0 / float(kShadowSteps)) ? -at.most_px : -radius));
         if (radius < -2) {
             const float near = 0.25 * drawn;

@@ -102,7 +102,7 @@ float let_through(vec2 from, vec2 to, bool is_near, float per_radius, float near
     const vec2 step_px = step_of * (is_near ? from - to : to - from);
     const float level = clamp(0.5 * log2(0.25 * dot(step_px, step_px)), 0.0, 3.0), per_step = 1 / step_of;
     vec2 place = (is_near ? from : to) * (0.5 * texel), step_at = step_px * (0.5 * texel);
-    // The way past a small lamp may be longer than cells go on.
+    // The way past a small lamp may lead beyond the cells that the frame has.
     if (is_near) step_at = min(step_at, (farthest_place(texel) - place) / float(kShadowSteps));
     float hidden = 0;
     [[dont_unroll]] for (float way = 1; way <= float(kShadowSteps); ++way) {
