@@ -40,11 +40,12 @@ float of_each(float radius_px, float reach) {
 // The signed reach of a disc, and the light that each of its pixels gets. A disc covers a pixel half if their middles are
 // as far apart as its reach: a circle's rim bends away from a square's side.
 vec2 disc_of(float radius) {
-    const float all = abs(radius);
+    const float all = abs(radius), square = all * all;
     if (all <= 0.5) return vec2(radius < 0 ? -0.5 : 0.5, 1);
-    const float on_grid = sqrt(max(0.25 + 0.55 * all * all, all * all - 0.25));  // kernel/model/radius_on_grid.h
-    const float reach = max(on_grid - (1.0 / 24) / on_grid, 0.5);
-    return vec2(radius < 0 ? -reach : reach, all < kWholePx ? of_each(all, reach) : 0.0);
+    if (all >= kWholePx) return vec2(radius, 0);  // cells draw all of it
+    const float on_grid = max(0.25 + 0.55 * square, square - 0.25), per_px = inversesqrt(on_grid);  // kernel/model/radius_on_grid.h
+    const float reach = max(on_grid * per_px - (1.0 / 24) * per_px, 0.5);
+    return vec2(radius < 0 ? -reach : reach, of_each(all, reach));
 }
 // Radii of the pixels that one invocation has read; widest_px and farthest_px are made of them.
 struct Widest {
@@ -52,9 +53,9 @@ struct Widest {
     float farthest;
     uint silhouettes;  // a bit for each pixel that shows a hardly blurred surface and its background
 };
-void read_pixel(ivec2 place, uint number, inout Widest found) {
+void read_pixel(ivec2 place, ivec2 pixel, ivec2 last, uint number, inout Widest found) {
     if (max(place.x, place.y) >= kAcross) return;
-    const ivec2 there = clamp(8 * ivec2(gl_WorkGroupID.xy) - kRim + place, ivec2(0), at.size - 1);
+    const ivec2 there = clamp(pixel, ivec2(0), last);
     const int i = place.y * kAcross + place.x;
     const float radius = radius_at(there), fine_px = pixelwise(abs(radius));
     const vec2 disc = disc_of(radius);
@@ -69,15 +70,15 @@ void read_pixel(ivec2 place, uint number, inout Widest found) {
 // Returns the silhouette pixels of this invocation.
 uint read_window() {
     const int own = int(gl_LocalInvocationIndex);
-    const ivec2 local = ivec2(gl_LocalInvocationID.xy);
+    const ivec2 local = ivec2(gl_LocalInvocationID.xy), pixel = ivec2(gl_GlobalInvocationID.xy) - kRim, last = at.size - 1;
     if (own < 3) widest_px[own] = 0u;
     if (own == 3) farthest_px = floatBitsToUint(at.most_px);
     if (own == 4) silhouettes_found = 0u;
     Widest found = Widest(vec3(0), at.most_px, 0u);
-    read_pixel(local, 0u, found);
-    read_pixel(local + ivec2(8, 0), 1u, found);
-    read_pixel(local + ivec2(0, 8), 2u, found);
-    read_pixel(local + 8, 3u, found);
+    read_pixel(local, pixel, last, 0u, found);
+    read_pixel(local + ivec2(8, 0), pixel + ivec2(8, 0), last, 1u, found);
+    read_pixel(local + ivec2(0, 8), pixel + ivec2(0, 8), last, 2u, found);
+    read_pixel(local + 8, pixel + 8, last, 3u, found);
     barrier();
     for (int i = 0; i < 3; ++i)
         if (found.widest[i] > 0) atomicMax(widest_px[i], floatBitsToUint(found.widest[i]));

@@ -11,9 +11,10 @@ shared vec2 sums[64];
 
 void main() {
     const uint own = gl_LocalInvocationIndex;
+    const ivec2 first = 2 * ivec2(gl_GlobalInvocationID.xy), last = at.size - 1;
     vec2 sum = vec2(0);
     for (int i = 0; i < 4; ++i) {
-        const ivec2 pixel = min(2 * ivec2(gl_GlobalInvocationID.xy) + ivec2(i & 1, i >> 1), at.size - 1);
+        const ivec2 pixel = min(first + ivec2(i & 1, i >> 1), last);
         const float light = brightness(light_of(texelFetch(colours, pixel, 0)));
         sum += vec2(sqrt(light), light);
     }

@@ -16,7 +16,7 @@ struct Lamp {
     vec4 to_cells;   // scale and offset from pixels to the cells of its kernel, from the middle one
     vec3 light;      // times the size of a kernel's cell
     float reach;     // squared distance from the middle without light, cells
-    int middle, side;  // the middle cell of its kernel in the zone above it and left of it
+    int middle, side;  // the middle cell of its kernel in the zone above it and left of it; cells in a row
     vec2 zone_share;  // of the next column and row of zones
 };
 shared Lamp group_lamps[kLampsAtOnce];
@@ -54,7 +54,7 @@ vec3 kernel_at(int lamp, vec2 pixel) {
     if (dot(place, place) >= group_lamps[lamp].reach) return vec3(0);
     const int side = group_lamps[lamp].side;
     const vec2 low = floor(place), share = place - low;
-    const int first = group_lamps[lamp].middle + int(low.y) * side + int(low.x);
+    const int first = group_lamps[lamp].middle + int(low.y * float(side) + low.x);
     const vec2 zone_share = group_lamps[lamp].zone_share;
     if (zone_share == vec2(0)) return cell_at(first, side, share);
     const int of_zone = size_of_zone(lens[0]);
