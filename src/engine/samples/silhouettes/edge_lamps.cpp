@@ -52,6 +52,20 @@ float share_of_surface(const std::vector<LitPixel>& nearer) {
     return std::clamp((float(lit) / float(pixels) - few_lit) / (many_lit - few_lit), few_lit, 1.0f);
 }
 
+// True if a lamp lights farther pixels on opposite sides of the nearer one at (x, y), at least half as bright
+// as its `light`: it shines past a strand. A lamp on the strand would cover less than half of those pixels,
+// or they would be near too.
+bool shines_past(const LitPicture& picture, View<const float> coc, int x, int y, float threshold,
+                 float light) {
+    const auto lit = [&](int dx, int dy) {
+        const int u = x + dx, v = y + dy;
+        return coc.rect().contains(u, v) && coc(u, v) > threshold &&
+               luminance(picture.colour(u, v) - picture.dim(u, v)) >= 0.5f * light;
+    };
+    const auto on_both_sides = [&](int dx, int dy) { return lit(dx, dy) && lit(-dx, -dy); };
+    return on_both_sides(1, 0) || on_both_sides(0, 1) || on_both_sides(1, 1) || on_both_sides(1, -1);
+}
+
 }  // namespace
 
 LampsBehind find_lamps(const LitPicture& picture, View<const float> coc, View<const unsigned char> touching,
@@ -62,6 +76,7 @@ LampsBehind find_lamps(const LitPicture& picture, View<const float> coc, View<co
     if (own == Rgba{}) own = picture.colour(x, y);
     float near = 0, far = 0;
     std::vector<LitPixel> nearer;
+    bool past_strand = false;
     for (int v = window.y0; v < window.y1; ++v)
         for (int u = window.x0; u < window.x1; ++u) {
             const Rgba lamp = picture.colour(u, v) - picture.dim(u, v);
@@ -69,12 +84,13 @@ LampsBehind find_lamps(const LitPicture& picture, View<const float> coc, View<co
             if (coc(u, v) <= threshold) {
                 nearer.push_back({light, coc(u, v), !touching(u, v)});
                 near = std::max(near, light);
+                past_strand = past_strand || (light > 0 && shines_past(picture, coc, u, v, threshold, light));
             } else if (light > far) {
                 far = light, far_coc = coc(u, v);
             }
         }
     // A lamp behind may light only the pixels of the edge that it shines past.
-    const float sure = share_of_surface(nearer);
+    const float sure = past_strand ? 0 : share_of_surface(nearer);
     far = std::max(far, completion_model.unseen_lamp * (1 - sure) * near);
     near *= sure;
     const float side = completion_model.lamp_side;
