@@ -27,10 +27,13 @@ Sides look_around(const LitPicture& picture, View<const float> coc, View<const f
             // surface.
             const float weight = 1 / ((1 + d2 * d2) * (own_light + std::max(0.0f, luminance(colour))));
             if (near) {
+                s.near_brightest = std::max(s.near_brightest, luminance(comparable(colour)));
                 if (!touching(u, v)) s.near_clean.add(colour, weight);
                 if (d2 < s.near_closest) s.near_closest = d2, s.near_coc = coc(u, v);
             } else {
                 (touching(u, v) ? s.far_mixed : s.far_clean).add(colour, weight);
+                s.far_most = {std::max(s.far_most.r, colour.r), std::max(s.far_most.g, colour.g),
+                              std::max(s.far_most.b, colour.b), 1};
                 if (d2 < s.far_closest) s.far_closest = d2, s.far_coc = coc(u, v);
             }
         }

@@ -5,12 +5,19 @@
 #include <array>
 
 namespace petzval::engine {
+namespace {
+
+constexpr float kTiny = 1e-12f;    // keeps quotients finite
+constexpr float kLeastFar = 0.1f;  // a farther surface that covers less of a pixel gains no more light
+
+}  // namespace
 
 float least_variance(Rgba c, float errors) {
     return 1e-6f + errors * errors * completion_model.model_error2 * dot(c, c);
 }
 
-Explained expected(Rgba c, const Guess& near, const Guess& far, float by_shape, float errors) {
+Explained expected(Rgba c, const Guess& near, const Guess& far, float by_shape, float errors,
+                   float far_gains) {
     constexpr std::size_t kShares = 11;
     const float least = least_variance(c, errors);
     std::array<float, kShares> unlikely, variance;  // -2 log of the likelihood, but for the variance
@@ -27,10 +34,18 @@ Explained expected(Rgba c, const Guess& near, const Guess& far, float by_shape, 
         const float s = float(i) / (kShares - 1);
         const float weight = std::exp(-0.5f * (unlikely[i] - best)) / (variance[i] * std::sqrt(variance[i]));
         share += weight * s, total += weight;
-        const float gain = weight * (1 - s) * far.variance / variance[i];
-        step += gain * (c - s * near.colour - (1 - s) * far.colour);
+        const float varies = (1 - s) * far.variance + far_gains * least / std::max(kLeastFar, 1 - s);
+        step += (weight * varies / variance[i]) * (c - s * near.colour - (1 - s) * far.colour);
     }
     return {share / total, light_only(far.colour + (1 / total) * step)};
+}
+
+float unexplained(Rgba c, Rgba near, Rgba far) {
+    constexpr float kNone = 0.1f, kAll = 0.5f;  // of the squared light
+    const Rgba across = near - far;
+    const float along = std::clamp(dot(c - far, across) / std::max(kTiny, dot(across, across)), 0.0f, 1.0f);
+    const float apart = distance2(c, far + along * across) / std::max(kTiny, dot(c, c) - c.a * c.a);
+    return std::clamp((apart - kNone) / (kAll - kNone), 0.0f, 1.0f);
 }
 
 float share_before(Rgba c, const Guess& near, Rgba behind, float by_shape, float errors) {

@@ -60,8 +60,13 @@ struct Explained {
 float least_variance(Rgba c, float errors);
 
 // The mean of all coverages that explain the pixel's colour c, weighted by their likelihood for c and their
-// agreement with the shape. The unexplained rest belongs to the less certain surface. errors: as above.
-Explained expected(Rgba c, const Guess& near, const Guess& far, float by_shape, float errors);
+// agreement with the shape. The unexplained rest belongs to the less certain surface. far_gains: the farther
+// surface's share of light that neither variance explains; 0: the nearer one gets it. errors: as above.
+Explained expected(Rgba c, const Guess& near, const Guess& far, float by_shape, float errors,
+                   float far_gains = 0);
+
+// 0…1: the share of colour c that no mixture of the two explains.
+float unexplained(Rgba c, Rgba near, Rgba far);
 
 // The nearer surface's coverage of a pixel of colour c in front of a known background. The background cannot
 // contribute more light than it has.

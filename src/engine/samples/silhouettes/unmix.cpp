@@ -24,6 +24,22 @@ void give_to_lamps(Mixture& m) {
     m.near_colour -= given, m.far_light += given;
 }
 
+// 0…1: the share of unexplained light in a pixel that shows the farther surface and belongs to that: a detail
+// which no clean pixel shows, such as the end of a lit sign beside a wire.
+float own_detail(Rgba c, const Guess& near, const Guess& far, const Sides& s) {
+    if (s.near_clean.empty()) return 0;
+    // A pixel of the nearer surface that is twice as bright may shine into this one: renderers filter colour,
+    // not depth.
+    const float spills = std::clamp(s.near_brightest / std::max(1e-6f, luminance(c)) - 1, 0.0f, 1.0f);
+    return (1 - spills) * unexplained(c, near.colour, far.colour);
+}
+
+// `more`, in each channel at most `most`, or `least` if that is brighter.
+Rgba limited(Rgba more, Rgba most, Rgba least) {
+    return {std::min(more.r, std::max(most.r, least.r)), std::min(more.g, std::max(most.g, least.g)),
+            std::min(more.b, std::max(most.b, least.b)), more.a};
+}
+
 Mixture taken_apart(const LitPicture& picture, View<const float> coc, View<const float> stated,
                     View<const unsigned char> touching, int x, int y, const UnmixRule& rule) {
     float low = coc(x, y), high = coc(x, y);
@@ -51,7 +67,12 @@ Mixture taken_apart(const LitPicture& picture, View<const float> coc, View<const
         m.lights_near = lamps != Rgba{} && behind.share < 1, m.lamps_behind = behind.share;
     }
     if (!m.shows_far) return m;
-    const Explained e = expected(comparable(c), near, far, s.near_share_by_shape, m.errors());
+    const auto explained = [&](float far_gains) {
+        return expected(comparable(c), near, far, s.near_share_by_shape, m.errors(), far_gains);
+    };
+    Explained e = explained(0);
+    if (const float gains = own_detail(comparable(c), near, far, s); gains > 0)
+        e.far_colour = limited(explained(gains).far_colour, s.far_most, e.far_colour);
     m.take_apart(c, e.near_share, e.far_colour);
     const Rgba lamps_before = lamps - m.far_light;
     give_to_lamps(m);

@@ -48,5 +48,26 @@ TEST(Unmix, AnEdgeInFocusIsSeparatedAtANarrowerStep) {
     EXPECT_EQ(edge_of(8), 1) << "not separated";
 }
 
+// A lit strip, one pixel of which shows between a dark wall at its depth and a wire in focus. Neither dark
+// surface explains its light.
+TEST(Unmix, LightThatNeitherSurfaceExplainsBelongsToTheFartherOne) {
+    constexpr int kSize = 32, kStrip = 15, kWire = 16, kAfter = 20;
+    const Rgba wall{0.02f, 0.02f, 0.02f, 1}, strip{1.1f, 1.2f, 1, 1}, wire{0.03f, 0.03f, 0.04f, 1};
+    Picture colour(kSize, kSize);
+    Plane coc(kSize, kSize);
+    for (int y = 0; y < kSize; ++y)
+        for (int x = 0; x < kSize; ++x) {
+            const bool is_wire = x >= kWire && x < kAfter;
+            colour(x, y) = x == kStrip ? strip : is_wire ? wire : wall;
+            coc(x, y) = is_wire ? 0 : 4.7f;
+        }
+    const Mixtures mixtures =
+        unmix_silhouettes({colour, {}}, coc, connections(coc, one_thread()), one_thread());
+    const Mixture* const beside_wire = mixtures.at(kStrip, kSize / 2);
+    ASSERT_NE(beside_wire, nullptr);
+    EXPECT_NEAR(beside_wire->far_colour.g, strip.g, 0.01f);
+    EXPECT_LE(beside_wire->near_colour.g, beside_wire->near_share * strip.g + 0.01f);
+}
+
 }  // namespace
 }  // namespace petzval::engine
