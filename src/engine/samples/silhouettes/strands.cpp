@@ -40,31 +40,41 @@ private:
         Rgba colour;
         const Mixture* at;  // the strand mixes into the pixel; null: the pixel is clean
         float near_by, weight;
+        bool is_gap;
     };
     static constexpr int kMostReachPx = 5;  // of UnmixRule::clean_within_px
     static constexpr std::size_t kWindowPx = 2 * kMostReachPx + 1, kMostShown = kWindowPx * kWindowPx;
 
+    // True if the pixel lies between two pixels that show strands. The shape of one silhouette says little
+    // about the share of both strands in it.
+    bool is_gap(int x, int y, float threshold_px) const {
+        const auto near = [&](int u, int v) {
+            return coc_.rect().contains(u, v) && coc_(u, v) <= threshold_px;
+        };
+        return (near(x - 1, y) && near(x + 1, y)) || (near(x, y - 1) && near(x, y + 1));
+    }
     // The surface behind, from all pixels around that show it. Those that the strand mixes into count after
-    // its part was taken out, and less if the error of that part exceeds the surface's own variance.
+    // its part was taken out, and less if the error of that part exceeds the surface's own variance. Gaps
+    // count where no other pixel shows the surface.
     Guess behind(int x, int y, const Mixture& m, Rgba near) const {
         constexpr float kDark = 1e-3f;  // keeps reciprocals finite
         const float own_light = std::max(0.0f, luminance(picture_.dim(x, y))) + kDark;
-        const float third = third_surface_px(coc_(x, y), strand_threshold_px(m));
+        const float threshold = strand_threshold_px(m), third = third_surface_px(coc_(x, y), threshold);
         const Rect window =
             Rect{x - reach_px_, y - reach_px_, x + reach_px_ + 1, y + reach_px_ + 1}.intersected(coc_.rect());
         const auto dimmer = [&](Rgba c) { return 1 / (own_light + std::max(0.0f, luminance(c))); };
-        Pool clean, mixed, all;
+        Pool clean, mixed, all, gaps;
         std::array<Shown, kMostShown> shown;
         std::size_t count = 0;
         for (int v = window.y0; v < window.y1; ++v)
             for (int u = window.x0; u < window.x1; ++u) {
-                if (coc_(u, v) > third || coc_(u, v) <= strand_threshold_px(m)) continue;
+                if (coc_(u, v) > third || coc_(u, v) <= threshold) continue;
                 const float d2 = float((u - x) * (u - x) + (v - y) * (v - y)), near_by = 1 / (1 + d2 * d2);
                 const Rgba c = picture_.dim(u, v);
                 const Mixture* const at = mixtures_.at(u, v);
                 const float weight = near_by * dimmer(c);
                 (at ? mixed : clean).add(c, weight);
-                shown[count++] = {c, at, near_by, weight};
+                shown[count++] = {c, at, near_by, weight, at && is_gap(u, v, threshold)};
             }
         const Guess first = (clean.empty() ? mixed : clean).guess();
         const float own = first.variance + least_variance(first.colour, m.errors());
@@ -79,9 +89,11 @@ private:
             const float rest = std::max(0.05f, 1 - s.at->share_by_shape);
             Rgba cleared = light_only((1 / rest) * (comparable(s.colour) - (1 - rest) * near));
             cleared.a = s.colour.a;
-            all.add(cleared, s.near_by * dimmer(cleared) * rest * rest * own / (own + error));
+            (s.is_gap ? gaps : all)
+                .add(cleared, s.near_by * dimmer(cleared) * rest * rest * own / (own + error));
         }
-        return all.empty() ? first : all.guess();
+        const Pool& told = all.empty() ? gaps : all;
+        return told.empty() ? first : told.guess();
     }
 
     StrandColours colours_;

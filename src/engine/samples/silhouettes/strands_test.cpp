@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 
 #include <algorithm>
+#include <array>
 
 #include <gtest/gtest.h>
 
@@ -123,6 +124,27 @@ TEST(Strands, ThatALampLightsAreLeftToTheLamp) {
             ++near_lamp;
         });
     EXPECT_GT(near_lamp, 0);
+}
+
+// Two bars before a wall, with a gap of 0.3 px between them that one pixel shows in each row.
+TEST(Strands, LeaveTheWallItsColourInANarrowGap) {
+    constexpr int kGap = 30;
+    const std::array<float, 5> covered{0.6f, 1, 0.7f, 1, 0.5f};
+    const Rgba bar{0.03f, 0.03f, 0.03f, 1}, wall{0.4f, 0.4f, 0.4f, 1};
+    Picture colour(kSize, kSize, wall);
+    Plane coc_px(kSize, kSize, 6.6f);
+    for (int y = 0; y < kSize; ++y)
+        for (int i = 0; i < 5; ++i) {
+            const float share = covered[std::size_t(i)];
+            colour(kGap - 2 + i, y) = share * bar + (1 - share) * wall;
+            if (i != 2) coc_px(kGap - 2 + i, y) = 0;
+        }
+    const Mixtures mixtures =
+        unmix_silhouettes({colour, {}}, coc_px, connections(coc_px, one_thread()), one_thread());
+    const Mixture* const gap = mixtures.at(kGap, kSize / 2);
+    ASSERT_NE(gap, nullptr);
+    EXPECT_NEAR(gap->far_colour.g, wall.g, 0.05f);
+    EXPECT_NEAR(gap->near_share, 0.7f, 0.1f);
 }
 
 }  // namespace
