@@ -27,7 +27,7 @@ Sides look_around(const LitPicture& picture, View<const float> coc, View<const f
             // surface.
             const float weight = 1 / ((1 + d2 * d2) * (own_light + std::max(0.0f, luminance(colour))));
             if (near) {
-                s.near_brightest = std::max(s.near_brightest, luminance(comparable(colour)));
+                s.near_brightest = std::max(s.near_brightest, luminance(comparable(picture.colour(u, v))));
                 if (!touching(u, v)) s.near_clean.add(colour, weight);
                 if (d2 < s.near_closest) s.near_closest = d2, s.near_coc = coc(u, v);
             } else {

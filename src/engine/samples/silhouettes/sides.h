@@ -9,8 +9,8 @@ namespace petzval::engine {
 // The two surfaces that meet at a silhouette's pixel, from its neighbourhood.
 struct Sides {
     Pool near_clean, far_clean, far_mixed;
-    Rgba far_most;                    // the most light of pixels that show the farther surface, by channel
-    float near_brightest = 0;         // luminance of the brightest pixel that shows the nearer one
+    Rgba far_most;             // the most light of pixels that show the farther surface, by channel
+    float near_brightest = 0;  // luminance of the brightest pixel that shows the nearer one, with its lamps
     float near_coc = 0, far_coc = 0;  // radius of the closest pixel on that side
     float near_closest = 1e9f, far_closest = 1e9f;
     float near_share_by_shape = 0;

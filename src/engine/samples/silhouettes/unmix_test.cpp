@@ -69,5 +69,25 @@ TEST(Unmix, LightThatNeitherSurfaceExplainsBelongsToTheFartherOne) {
     EXPECT_LE(beside_wire->near_colour.g, beside_wire->near_share * strip.g + 0.01f);
 }
 
+// A lamp before a wall. The pixel beside it has the wall's depth and some of the lamp's light, too little to
+// be a lamp.
+TEST(Unmix, TheRimOfALampDoesNotBelongToTheWallBehind) {
+    constexpr int kSize = 32, kRim = 15, kLamp = 16, kAfter = 20;
+    const Rgba wall{0.02f, 0.02f, 0.02f, 1}, rim{1.1f, 1.2f, 1, 1}, lamp{90, 100, 80, 1};
+    Picture colour(kSize, kSize);
+    Plane coc(kSize, kSize);
+    for (int y = 0; y < kSize; ++y)
+        for (int x = 0; x < kSize; ++x) {
+            const bool is_lamp = x >= kLamp && x < kAfter;
+            colour(x, y) = x == kRim ? rim : is_lamp ? lamp : wall;
+            coc(x, y) = is_lamp ? 0 : 4.7f;
+        }
+    const LitPicture picture{colour, {[&](int, int, Rgba light) { return light.g > 10 ? wall : light; }}};
+    const Mixtures mixtures = unmix_silhouettes(picture, coc, connections(coc, one_thread()), one_thread());
+    const Mixture* const beside_lamp = mixtures.at(kRim, kSize / 2);
+    ASSERT_NE(beside_lamp, nullptr);
+    EXPECT_LT(beside_lamp->far_colour.g, 0.05f);
+}
+
 }  // namespace
 }  // namespace petzval::engine
