@@ -10,13 +10,19 @@ namespace {
 constexpr int kWidth = 96, kHeight = 64;
 constexpr float kHiddenPx = 7;
 
+EngineView view_of(const Picture& colour, const Plane& coc_px) {
+    EngineView input;
+    input.samples.colour = colour, input.samples.coc_px = coc_px;
+    input.lens.frame = colour.rect();
+    input.services.workers = &one_thread();
+    return input;
+}
+
 // The highlights taken from hidden light behind a dark, near pixel.
 std::vector<Highlight> taken(float light, float hidden_px = kHiddenPx, const HighlightRule& rule = {}) {
     const Picture colour(kWidth, kHeight, Rgba{0.1f, 0.1f, 0.1f, 1});
     const Plane coc_px(kWidth, kHeight, -5.0f);
-    EngineView input;
-    input.samples.colour = colour, input.samples.coc_px = coc_px, input.lens.frame = colour.rect(),
-    input.services.workers = &one_thread();
+    const EngineView input = view_of(colour, coc_px);
     CocSamples samples;
     samples.width = kWidth;
     for (int i = 0; i < kWidth * kHeight; ++i) {
@@ -57,9 +63,7 @@ TEST(Highlights, TheRimOfALampStandsWhereTheLampDoes) {
             colour(x, y) = inside ? Rgba{100, 80, 60, 1} : Rgba{30, 24, 18, 1};
             if (inside) coc_px(x, y) = kLampPx;
         }
-    EngineView input;
-    input.samples.colour = colour, input.samples.coc_px = coc_px, input.lens.frame = colour.rect(),
-    input.services.workers = &one_thread();
+    const EngineView input = view_of(colour, coc_px);
     CocSamples samples;
     samples.width = kWidth;
     for (std::size_t i = 0; i < colour.size(); ++i) {
@@ -86,20 +90,14 @@ TEST(Highlights, OnlyLampsFillAPartOfTheirPixel) {
         const float light = x == 60 ? 25.0f : 100.0f;
         colour(x, 30) = {light, light, light, 1};
     }
-    EngineView input;
-    input.samples.colour = colour;
-    input.samples.coc_px = coc_px;
-    input.lens.frame = colour.rect();
-    input.services.workers = &one_thread();
-    const HighlightSplit split(input, {});
+    const HighlightSplit split(view_of(colour, coc_px), {});
     for (int x = 2; x < 30; ++x) EXPECT_EQ(split.part_of_lamp(x, 20), PartOfPixel{}) << x;
     EXPECT_EQ(split.part_of_lamp(60, 30), (PartOfPixel{3, PartOfPixel::kPoint}));
     EXPECT_EQ(split.part_of_lamp(62, 30), (PartOfPixel{PartOfPixel::kWhole, PartOfPixel::kPoint}));
     EXPECT_EQ(split.part_of_lamp(63, 30), (PartOfPixel{-1, PartOfPixel::kPoint}));
 }
 
-// A lit window before a wall with a lamp, both cut by the border of the picture, and a wire in focus near
-// them.
+// A lit window and a lamp in a wall, both cut by the border of the picture.
 TEST(Highlights, TheBorderCutsOffLampsAndNoSurfaces) {
     const Rgba window{1, 1, 1, 1}, lamp{100, 100, 100, 1};
     Picture colour(kWidth, kHeight, Rgba{0.3f, 0.3f, 0.3f, 1});
@@ -109,12 +107,7 @@ TEST(Highlights, TheBorderCutsOffLampsAndNoSurfaces) {
             const bool is_window = y < 10 && x >= 20 && x < 32, is_lamp = y < 2 && x >= 60 && x < 62;
             colour(x, y) = is_window ? window : is_lamp ? lamp : Rgba{0.01f, 0.01f, 0.01f, 1};
         }
-    EngineView input;
-    input.samples.colour = colour;
-    input.samples.coc_px = coc_px;
-    input.lens.frame = colour.rect();
-    input.services.workers = &one_thread();
-    const HighlightSplit split(input, {});
+    const HighlightSplit split(view_of(colour, coc_px), {});
     EXPECT_EQ(split.base(26, 0, 3, window), window);
     EXPECT_LT(luminance(split.base(60, 0, 3, lamp)), 0.1f);
 }
