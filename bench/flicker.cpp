@@ -1,7 +1,7 @@
-// petzval_bench_flicker SHOT FOLDER WIDTH FRAMES POINTS ENGINE: one shot through an engine, and its truth:
-// `reference` with POINTS pupil points and all layers known, or as many lens samples of the ray tracer where
-// the scene moves. Frames as PNG, a contact sheet of both with the change of the error between frames (grey:
-// none), and the measures of tests/flicker/flicker.h as JSON. Without words, the names of the shots.
+// petzval_bench_flicker SHOT FOLDER WIDTH FRAMES SAMPLES ENGINE: one shot through an engine, and its truth by
+// a ray tracer with SAMPLES lens samples per pixel. Frames as PNG, a contact sheet of both with the change of
+// the error between frames (grey: none), and the measures of tests/flicker/flicker.h as JSON. Without words,
+// the names of the shots.
 #include "flicker.h"
 
 #include "petzval/develop.h"
@@ -81,20 +81,18 @@ int main(int count, char** words) {
         for (const NamedShot& shot : kShots) std::printf("%s\n", shot.name);
         return 0;
     }
-    if (count != 7) fail("SHOT FOLDER WIDTH FRAMES POINTS ENGINE");
-    const int width = std::atoi(words[3]), frames = std::atoi(words[4]), points = std::atoi(words[5]);
+    if (count != 7) fail("SHOT FOLDER WIDTH FRAMES SAMPLES ENGINE");
+    const int width = std::atoi(words[3]), frames = std::atoi(words[4]), samples = std::atoi(words[5]);
     for (const NamedShot& named : kShots) {
         if (named.name != std::string(words[1])) continue;
         const flicker::Size size{width, width * 9 / 16};
-        flicker::Shot shot = named.moves ? flicker::camera_move(named.scene, size, 0, frames, points)
+        flicker::Shot shot = named.moves ? flicker::camera_move(named.scene, size, 0, frames, samples)
                                          : flicker::focus_pull(named.scene, size, frames, named.from_m,
-                                                               named.to_m, named.wider);
+                                                               named.to_m, named.wider, samples);
         if (named.temporal > 0) flicker::look_around(shot, named.temporal);
         const Frames result = flicker::defocused(shot, words[6]);
-        const Frames truth =
-            named.moves ? flicker::truths_of(shot) : flicker::defocused(shot, "reference", points);
-        const flicker::Steadiness found = flicker::measure(result, truth);
-        write_all(words[2], named.name, result, truth);
+        const flicker::Steadiness found = flicker::measure(result, shot.truth);
+        write_all(words[2], named.name, result, shot.truth);
         std::printf(
             "{\"change_db\": %.2f, \"worst_pop\": %.5f, \"shake\": %.4f, \"frame\": %d, \"x\": %d, \"y\": "
             "%d}\n",

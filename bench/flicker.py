@@ -1,12 +1,12 @@
 """Does anything pop, crawl or flicker? Focus pulls and camera moves, as contact sheets, videos and numbers.
 
-Each shot goes through --engine (`realtime`: on the first GPU). Focus pulls stay on one picture with all hidden layers known, so that `reference` is
-the truth; camera moves have to guess what is hidden, and their truth is what a ray tracer saw through the lens, whose
-own noise counts. tests/flicker/flicker.h defines the measures; the worst pop is the largest change of an 8 x 8 block
-between frames beyond the truth's. The third row of every contact sheet in build/bench/flicker draws the change of the
-error, eight times as strong. Videos are made if ffmpeg is there.
+Each shot goes through --engine (`realtime`: on the first GPU). The truth is what a ray tracer saw through the lens, whose
+own noise counts. In focus pulls all hidden layers are given; camera moves have to guess what is hidden.
+tests/flicker/flicker.h defines the measures; the worst pop is the largest change of an 8 x 8 block between frames beyond
+the truth's. The third row of every contact sheet in build/bench/flicker draws the change of the error, eight times as
+strong. Videos are made if ffmpeg is there.
 
-Usage: ./dev bench flicker [--shots A,B] [--engine NAME] [--width N] [--frames N] [--points N]
+Usage: ./dev bench flicker [--shots A,B] [--engine NAME] [--width N] [--frames N] [--samples N]
 """
 import argparse
 import json
@@ -35,14 +35,14 @@ def main():
     parser.add_argument("--shots", type=lambda text: text.split(","), default=known, help=", ".join(known))
     parser.add_argument("--width", type=int, default=240)
     parser.add_argument("--frames", type=int, default=12, help="up to 48 where the scene moves")
-    parser.add_argument("--points", type=int, default=256, help="pupil points, or lens samples, of the truth")
+    parser.add_argument("--samples", type=int, default=256, help="lens samples per pixel of the truth")
     parser.add_argument("--engine", default="scatter")
     given = parser.parse_args()
     OUT.mkdir(parents=True, exist_ok=True)
     body = []
     for shot in given.shots:
         print(shot, file=sys.stderr)
-        result = subprocess.run([FLICKER, shot, OUT, *map(str, (given.width, given.frames, given.points, given.engine))],
+        result = subprocess.run([FLICKER, shot, OUT, *map(str, (given.width, given.frames, given.samples, given.engine))],
                                 stdout=subprocess.PIPE, text=True)
         if result.returncode:
             sys.exit(result.returncode)
@@ -53,7 +53,7 @@ def main():
         print(OUT / f"{shot}_sheet.png", file=sys.stderr)
         video_of(shot)
     print_table(["shot", "size", "change of error, dB", "worst pop", "where", "shake"], body)
-    print(f"\n{given.points} points or lens samples in the truth. {machine()}; command: ./dev bench flicker "
+    print(f"\n{given.samples} lens samples per pixel in the truth. {machine()}; command: ./dev bench flicker "
           f"{' '.join(sys.argv[1:])}".rstrip() + ".")
 
 

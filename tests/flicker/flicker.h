@@ -82,10 +82,12 @@ inline Steadiness measure(const Frames& result, const Frames& truth) {
     return found;
 }
 
-// A shot: sharp pictures with depth, or one for all frames, and the camera of each frame.
+// A shot: sharp pictures with depth, or one for all frames, the camera of each frame, and the ray-traced
+// pictures that its lens takes.
 struct Shot {
     std::vector<RenderedScene> pictures;
     std::vector<Camera> cameras;
+    Frames truth;
     std::vector<DeepPicture> behind = {};  // of each frame, where its neighbours were asked
     const RenderedScene& picture(std::size_t frame) const {
         return pictures[std::min(frame, pictures.size() - 1)];
@@ -96,40 +98,49 @@ struct Size {
     int width = 128, height = 72;
 };
 
-// With hidden layers, or with the truth where truth_samples > 0.
-inline RenderedScene rendered(const std::string& scene, Size size, int frame, int truth_samples = 0) {
+inline SceneSettings settings_of(Size size, int truth_samples) {
     SceneSettings settings;
     settings.width = size.width;
     settings.height = size.height;
-    settings.frame = frame;
-    settings.want_truth = truth_samples > 0;
-    settings.want_layers = truth_samples == 0;
-    settings.truth_samples = std::max(1, truth_samples);
-    return std::move(render_scene(scene, settings).value());
+    settings.truth_samples = truth_samples;
+    return settings;
+}
+
+inline Picture truth_of(const std::string& scene, SceneSettings settings, const Camera& camera) {
+    settings.camera = camera;
+    settings.samples = 1;  // of the sharp picture, which is not used
+    settings.want_truth = true;
+    return std::move(render_scene(scene, settings).value().truth);
 }
 
 // One picture, the focus pulled from `from_m` to `to_m` in equal steps of 1/distance, as an assistant's marks
 // lie; the f-number is the scene's divided by `wider`, which makes small pictures' blurs large in pixels.
-// Hidden layers are known, so that `reference` is the truth.
+// Hidden layers are known.
 inline Shot focus_pull(const std::string& scene, Size size, int frames, double from_m, double to_m,
-                       double wider) {
+                       double wider, int truth_samples) {
     Shot shot;
-    shot.pictures.push_back(rendered(scene, size, 0));
+    SceneSettings settings = settings_of(size, truth_samples);
+    settings.want_layers = true;
+    shot.pictures.push_back(std::move(render_scene(scene, settings).value()));
     for (int t = 0; t < frames; ++t) {
         const double along = frames > 1 ? double(t) / (frames - 1) : 0;
         Camera camera = shot.pictures[0].camera;
         camera.focus_distance_m = 1 / (1 / from_m + along * (1 / to_m - 1 / from_m));
         camera.f_number /= wider;
+        shot.truth.push_back(truth_of(scene, settings_of(size, truth_samples), camera));
         shot.cameras.push_back(camera);
     }
     return shot;
 }
 
-// Consecutive frames of a scene that moves, with their truth. What nearer things hide has to be guessed.
+// Consecutive frames of a scene that moves. What nearer things hide has to be guessed.
 inline Shot camera_move(const std::string& scene, Size size, int first, int frames, int truth_samples) {
     Shot shot;
-    for (int t = first; t < first + frames; ++t) {
-        shot.pictures.push_back(rendered(scene, size, t, truth_samples));
+    SceneSettings settings = settings_of(size, truth_samples);
+    settings.want_truth = true;
+    for (settings.frame = first; settings.frame < first + frames; ++settings.frame) {
+        shot.pictures.push_back(std::move(render_scene(scene, settings).value()));
+        shot.truth.push_back(std::move(shot.pictures.back().truth));
         shot.cameras.push_back(shot.pictures.back().camera);
     }
     return shot;
@@ -157,7 +168,7 @@ inline void look_around(Shot& shot, int each_side) {
     }
 }
 
-inline DefocusJob job_of(const Shot& shot, std::size_t frame, const std::string& engine, int pupil_points) {
+inline DefocusJob job_of(const Shot& shot, std::size_t frame, const std::string& engine) {
     DefocusJob job;
     job.colour = shot.picture(frame).colour;
     job.depth_m = shot.picture(frame).depth_m;
@@ -166,23 +177,16 @@ inline DefocusJob job_of(const Shot& shot, std::size_t frame, const std::string&
     job.behind = layers.empty() ? nullptr : &layers;
     job.camera = shot.cameras[frame];
     job.engine = engine;
-    job.pupil_points = pupil_points;
     return job;
 }
 
-inline Frames truths_of(const Shot& shot) {
-    Frames frames;
-    for (const RenderedScene& picture : shot.pictures) frames.push_back(picture.truth.clone());
-    return frames;
-}
-
-inline Frames defocused(const Shot& shot, const std::string& engine, int pupil_points = 128) {
+inline Frames defocused(const Shot& shot, const std::string& engine) {
     Frames frames;
     SessionSettings settings;
     if (engine == "realtime") settings.device = "gpu";
     Session session(settings);
     for (std::size_t t = 0; t < shot.cameras.size(); ++t) {
-        DefocusJob job = job_of(shot, t, engine, pupil_points);
+        DefocusJob job = job_of(shot, t, engine);
         if (engine == "realtime") job.behind = nullptr;  // it takes no hidden layers
         frames.push_back(std::move(session.defocus(job).value().image));
     }
