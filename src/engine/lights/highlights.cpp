@@ -56,7 +56,8 @@ float radius_of_brightest(View<const Rgba> colour, View<const float> coc_px, int
 
 HighlightSplit::HighlightSplit(const EngineView& input, const HighlightRule& rule)
     : rule_(rule),
-      colour_(input.samples.deep.empty() ? input.samples.judged() : View<const Rgba>{}),
+      colour_(input.samples.judged()),
+      radii_known_(!input.samples.deep.empty()),
       coc_px_(input.samples.coc_px),
       width_(input.width()),
       height_(input.height()) {
@@ -121,13 +122,12 @@ Rgba HighlightSplit::dim(int x, int y, Rgba light) const {
 }
 
 float HighlightSplit::radius_of_light(int x, int y, float coc_px) const {
-    if (colour_.empty() || dim(x, y, colour_(x, y)) == colour_(x, y)) return coc_px;
+    if (radii_known_ || dim(x, y, colour_(x, y)) == colour_(x, y)) return coc_px;
     const float coc = radius_of_brightest(colour_, coc_px_, x, y);
     return laws::same_surface(laws::kConnected, coc, coc_px) ? coc : coc_px;
 }
 
 PartOfPixel HighlightSplit::part_of_lamp(int x, int y) const {
-    if (colour_.empty()) return {};
     const float around = surroundings_(x / kCell, y / kCell);
     const auto along = [&](int dx, int dy) {
         bool is_lamp = false;

@@ -71,7 +71,7 @@ public:
     // The radius of a lamp's light in pixel (x, y): that of the brightest pixel around, unless that is
     // another surface, which the separation of silhouettes handles. Samples of a deep picture know it.
     float radius_of_light(int x, int y, float coc_px) const;
-    // The part of pixel (x, y) that a lamp fills; a point where none does, or nobody knows (deep pictures).
+    // The part of pixel (x, y) that a lamp fills; a point where none does.
     PartOfPixel part_of_lamp(int x, int y) const;
     // Up to this luminance, times its coverage, dim() leaves light as it is.
     float least_of_lamps() const { return white_ * rule_.lamp_floor; }
@@ -95,6 +95,7 @@ private:
 
     HighlightRule rule_;
     View<const Rgba> colour_;
+    bool radii_known_;  // by each sample
     View<const float> coc_px_;
     int width_, height_;
     float white_ = 0;

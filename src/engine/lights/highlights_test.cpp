@@ -95,6 +95,17 @@ TEST(Highlights, OnlyLampsFillAPartOfTheirPixel) {
     EXPECT_EQ(split.part_of_lamp(60, 30), (PartOfPixel{3, PartOfPixel::kPoint}));
     EXPECT_EQ(split.part_of_lamp(62, 30), (PartOfPixel{PartOfPixel::kWhole, PartOfPixel::kPoint}));
     EXPECT_EQ(split.part_of_lamp(63, 30), (PartOfPixel{-1, PartOfPixel::kPoint}));
+    // Given layers do not change what the lamp shows of a pixel.
+    CocSamples given;
+    given.width = kWidth;
+    for (std::size_t i = 0; i < colour.size(); ++i) {
+        given.first.push_back(i);
+        given.samples.push_back({colour.pixels()[i], 1, 1});
+    }
+    given.first.push_back(colour.size());
+    EngineView input = view_of(colour, coc_px);
+    input.samples.deep = given;
+    EXPECT_EQ(HighlightSplit(input, {}).part_of_lamp(60, 30), (PartOfPixel{3, PartOfPixel::kPoint}));
 }
 
 // A lit window and a lamp in a wall, both cut by the border of the picture.
