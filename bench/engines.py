@@ -5,7 +5,8 @@ Two tables, in Markdown, on stdout, from one run:
             through the lens; CPU seconds are those of the whole command, files and all, the least of --repeat runs;
             scenes as in `./dev bench quality`, random:5 is `random` with that seed; --fstops: each built-in scene at
             each of these. --rows: scenes as rows, dB alone; `all` is every scene
-  speed     1920 x 1080, largest radius 32 px: wall seconds and CPU seconds / threads, each the best of --repeat
+  speed     1920 x 1080, largest radius 32 px: wall seconds and CPU seconds / threads, each the best of --repeat; every
+            run has another picture, except in the row `same picture`: there the surfaces are kept from the run before
 and build/bench/engines.png: the --frame scene through each, with the truth last. --docs: as docs/pictures/engines.png;
 that alone, anew: `./dev bench engines --tables quality --scenes night --repeat 1 --docs`.
 
@@ -33,7 +34,8 @@ WAYS = [("scatter final", ["--quality", "final"]), ("scatter", []), ("scatter dr
 ON_GPU = ("realtime", ["--engine", "realtime", "--device", "gpu"])  # if --ways names it
 EVERY = ("night fence table slant bars dynamic-range lanterns hair post meadow tori cubes rows cutouts hexadrive wgld "
          "unity random:5 random:7 shared/fence shared/table")
-SPEED = [("scatter", "final"), ("scatter", "standard"), ("scatter", "draft"), ("gather", "standard"),
+SAME = "standard, same picture"
+SPEED = [("scatter", "final"), ("scatter", "standard"), ("scatter", SAME), ("scatter", "draft"), ("gather", "standard"),
          ("gather", "draft"), ("sprites", "standard"), ("gaussian", "standard")]
 ON_SHEET = ["scatter", "gather", "sprites", "gaussian", "gaussian wgld"]
 
@@ -122,7 +124,8 @@ def speed_rows(given):
     for engine, quality in SPEED:
         row = [engine, quality]
         for name in ("table", "night", "fence"):
-            run = measure(picture(name, 1920), given, engine=engine, quality=quality, radius=32)
+            same = {"same-picture": 1, "repeat": max(3, given.repeat)} if quality == SAME else {}
+            run = measure(picture(name, 1920), given, engine=engine, quality=quality.split(",")[0], radius=32, **same)
             row.append(f"{seconds(run['wall_s'])} ({seconds(run['cpu_s'] / THREADS)})" if run else
                        f"> {given.limit / THREADS:g}")
         yield [*row, f"{run['peak_mib']:.0f}" if run else ""]

@@ -3,7 +3,9 @@
 //
 // The picture is read first and does not count. The f-number is set so that the largest radius is --radius.
 // Of --repeat runs each time is the least, stage by stage: what others do on the machine only adds to it. All
-// but the first find their kernels made; what the first takes longer is kernels_s.
+// but the first find their kernels made; what the first takes longer is kernels_s. Each run has another
+// picture, as in a shot; with --same-picture 1 it has the same one, whose surfaces the session keeps (third
+// run on).
 #include "petzval/session.h"
 
 #include "job.h"
@@ -27,6 +29,7 @@ using bench::fail;
 struct Options : bench::Asked {
     double limit_s = 60;
     int threads = 0, mirror = 1, pupil_points = 64;
+    bool same_picture = false;
 };
 
 Options parse(int count, char** words) {
@@ -40,6 +43,8 @@ Options parse(int count, char** words) {
             options.mirror = std::stoi(value);
         else if (flag == "--pupil-points")
             options.pupil_points = std::stoi(value);
+        else if (flag == "--same-picture")
+            options.same_picture = std::stoi(value) != 0;
         else
             return false;
         return true;
@@ -55,6 +60,11 @@ Image<T> mirrored(const Image<T>& one, int times) {
     for (int y = 0; y < all.height(); ++y)
         for (int x = 0; x < all.width(); ++x) all(x, y) = one(fold(x, one.width()), fold(y, one.height()));
     return all;
+}
+
+// Makes another picture: a session that knows the one before reuses no surfaces.
+void change(Picture& colour) {
+    for (int y = 0; y < colour.height(); ++y) colour(0, y).g += 0.001f;
 }
 
 // The peak since this was called, MiB; Linux alone can forget an earlier one.
@@ -99,7 +109,7 @@ int main(int count, char** words) {
     const Options options = parse(count, words);
     Result<Frame> frame = read_frame(options.file);
     if (!frame) fail(frame.error().message);
-    const Picture colour = mirrored(frame->colour, options.mirror);
+    Picture colour = mirrored(frame->colour, options.mirror);
     const Plane depth_m = mirrored(frame->depth, options.mirror);
 
     DefocusJob job = bench::job_of(colour, depth_m, frame->camera, options);
@@ -109,6 +119,7 @@ int main(int count, char** words) {
     Session session({.threads = options.threads});
     Measured measured;
     for (int run = 0; run < options.repeat; ++run) {
+        if (!options.same_picture) change(colour);
         forget_peak_memory();
         const auto start = std::chrono::steady_clock::now();
         const double cpu_start = cpu_seconds();
