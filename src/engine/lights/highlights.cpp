@@ -262,6 +262,7 @@ void take_pixel(const Rows& rows, int x, int y, std::optional<Block>& block, std
     bool in_block = false;
     for (std::size_t k = first; k < samples.first[i + 1]; ++k) {
         CocSample& sample = samples.samples[k];
+        if (split.is_dim(luminance(sample.colour), sample.colour.a)) continue;
         const Rgba base = split.base(x, rows.first_row + y, sample.coc_px, sample.colour);
         if (base == sample.colour) continue;
         const auto up_to_this = std::span(samples.samples).subspan(first, k + 1 - first);

@@ -71,12 +71,14 @@ private:
         // further that plane is from focus.
         const float blur =
             float(view_.size - 1) * std::abs(caster.coc_px) / std::max(1.0f, std::abs(view_.coc_px));
+        const float end = pupil_end_ + 0.5f * blur * per_px;
+        const auto misses = [end](const Side& side) { return side.begin >= end || side.end <= -end; };
         const Side across = seen(caster.x, caster.size, view_.x, apart, caster.right_px, plan_.picture.x0,
                                  plan_.picture.x1, plan_.open_edges.left, plan_.open_edges.right);
+        if (misses(across)) return;
         const Side down = seen(caster.y, caster.size, view_.y, apart, caster.down_px, plan_.picture.y0,
                                plan_.picture.y1, plan_.open_edges.top, plan_.open_edges.bottom);
-        const float end = pupil_end_ + 0.5f * blur * per_px;
-        if (across.begin >= end || across.end <= -end || down.begin >= end || down.end <= -end) return;
+        if (misses(down)) return;
         seen_.push_back({across.middle(), down.middle(), across.end - across.begin, down.end - down.begin,
                          blur * per_px, caster.coverage});
     }
