@@ -64,9 +64,11 @@ public:
     // its visible part is short compared with the distance. So a light fades as it slips behind an edge.
     // edges: around the hidden pixel.
     Rgba going_on(Place from, Direction outwards, float distance_px, const CutEdges::Around& edges) const;
-    // Edges of the picture that continue between the hidden pixel (x, y) and visible pixels within within_px.
-    CutEdges::Around edges_around(int x, int y, float within_px = 1e9f) const {
-        return edges_.around({x, y}, within_px);
+    // Edges of the picture that continue around the hidden pixel (x, y).
+    CutEdges::Around edges_around(int x, int y) const { return edges_.around({x, y}); }
+    // Those of the surface at coc_px, between the pixel and visible ones within within_px.
+    CutEdges::Around edges_around(int x, int y, float within_px, float coc_px) const {
+        return edges_.around({x, y}, within_px, coc_px);
     }
 
 private:

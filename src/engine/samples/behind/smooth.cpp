@@ -39,7 +39,7 @@ private:
     Rgba mean(int x, int y, int height, const HiddenGuess& own) const {
         constexpr std::array<float, 2> kWeights{2, 1};  // of a 3 x 3 binomial filter
         Rgba sum = 4 * own.plain * own.seen.colour;
-        const CutEdges::Around edges = known_.edges_around(x, y, 1.5f * float(spacing_));
+        const CutEdges::Around edges = known_.edges_around(x, y, 1.5f * float(spacing_), own.seen.coc_px);
         float total = 4 * own.plain;
         for (int dy = -1; dy <= 1; ++dy) {
             const int v = y + dy * spacing_;

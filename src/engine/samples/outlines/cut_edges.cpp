@@ -8,12 +8,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace petzval::engine {
 namespace {
 
 // An edge concerns hidden points that are at most this much farther from it than half its length.
 constexpr float kAroundPx = 16;
+
+bool is_on(const CutEdges::Edge& edge, float coc_px) {
+    return std::abs(edge.coc_px - coc_px) <= completion_model.apart_px();
+}
 
 }  // namespace
 
@@ -41,11 +46,14 @@ void CutEdges::sort_into_cells(int width, int height) {
     }
 }
 
-CutEdges::Around CutEdges::around(Point hidden, float within_px) const {
+// Only edges for which counts(edge) is true.
+template <typename Counts>
+CutEdges::Around CutEdges::around(Point hidden, float within_px, const Counts& counts) const {
     Around around;
     if (edges_.empty()) return around;
     for (const int i : near_[std::size_t(hidden.y / kCell * columns_ + hidden.x / kCell)]) {
         const Edge& e = edges_[std::size_t(i)];
+        if (!counts(e)) continue;
         const FromCut at(e, hidden);
         const float half = 0.5f * e.length_px;
         // (By distance and not by cell, so that strips of a frame agree.)
@@ -58,12 +66,20 @@ CutEdges::Around CutEdges::around(Point hidden, float within_px) const {
     return around;
 }
 
+CutEdges::Around CutEdges::around(Point hidden) const {
+    return around(hidden, std::numeric_limits<float>::infinity(), [](const Edge&) { return true; });
+}
+
+CutEdges::Around CutEdges::around(Point hidden, float within_px, float coc_px) const {
+    return around(hidden, within_px, [coc_px](const Edge& e) { return is_on(e, coc_px); });
+}
+
 float CutEdges::Around::passes(Point shown, float coc_px) const {
     const CompletionModel& model = completion_model;
     float open = 1;
     for (const Near& near : near_) {
         const Edge& e = near.edge;
-        if (std::abs(e.coc_px - coc_px) > model.apart_px()) continue;
+        if (!is_on(e, coc_px)) continue;
         const FromCut at(e, shown);
         const float a = near.aside, b = at.aside;
         if (a * b >= 0) continue;

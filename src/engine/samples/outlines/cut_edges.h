@@ -19,9 +19,11 @@ public:
     struct Point {
         int x, y;
     };
-    // The edges that may continue near a hidden point, and stand between it and a colour within within_px.
+    // The edges that may continue near a hidden point.
     class Around;
-    Around around(Point hidden, float within_px = 1e9f) const;
+    Around around(Point hidden) const;
+    // Those of the surface at coc_px that may stand between the point and a colour within within_px.
+    Around around(Point hidden, float within_px, float coc_px) const;
     // Not 0, so that weights remain if all colours lie behind some edge.
     static constexpr float kCut = 1e-3f;
 
@@ -36,6 +38,8 @@ public:
 
 private:
     void sort_into_cells(int width, int height);
+    template <typename Counts>
+    Around around(Point hidden, float within_px, const Counts& counts) const;
 
     std::vector<Edge> edges_;
     int columns_ = 0;
