@@ -34,7 +34,7 @@ float Outline::tent(float x, float y) const {
         if (down <= 0) continue;
         for (int i = 0; i < 4; ++i) {
             const float weight = across[i] * down;
-            if (weight > 0) sum += weight * side(u0 + i, v0 + j), total += weight;
+            sum += weight * side(u0 + i, v0 + j), total += weight;
         }
     }
     return sum / total;
