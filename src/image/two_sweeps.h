@@ -8,15 +8,19 @@ namespace petzval {
 // are chamfer distances (G. Borgefors, "Distance transformations in digital images", 1986).
 template <typename Relax>
 void two_sweeps(int width, int height, const Relax& relax) {
-    const auto with = [&](int x, int y, int dx, int dy) {
-        if (x + dx >= 0 && x + dx < width && y + dy >= 0 && y + dy < height) relax(x, y, dx, dy);
+    // The neighbour behind (x, y) in the order of a sweep of sense 1 or -1, and the three of the row before.
+    const auto with = [&](int x, int y, int sense, bool first_row) {
+        const bool behind = sense > 0 ? x > 0 : x + 1 < width, ahead = sense > 0 ? x + 1 < width : x > 0;
+        if (behind) relax(x, y, -sense, 0);
+        if (first_row) return;
+        if (behind) relax(x, y, -sense, -sense);
+        relax(x, y, 0, -sense);
+        if (ahead) relax(x, y, sense, -sense);
     };
     for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x)
-            with(x, y, -1, 0), with(x, y, -1, -1), with(x, y, 0, -1), with(x, y, 1, -1);
+        for (int x = 0; x < width; ++x) with(x, y, 1, y == 0);
     for (int y = height - 1; y >= 0; --y)
-        for (int x = width - 1; x >= 0; --x)
-            with(x, y, 1, 0), with(x, y, 1, 1), with(x, y, 0, 1), with(x, y, -1, 1);
+        for (int x = width - 1; x >= 0; --x) with(x, y, -1, y == height - 1);
 }
 
 // Distance to a neighbour, in cells, by which two sweeps come closest to Euclid's.

@@ -25,10 +25,10 @@ float finite_radius(double radius_px) {
 bool is_finite(View<const Rgba> colour, Workers& workers) {
     std::atomic<bool> finite{true};
     parallel_for(colour.height(), workers, [&](int y) {
-        bool row_finite = true;
-        for (int x = 0; x < colour.width(); ++x)
-            row_finite = row_finite && engine::finite_colour(colour(x, y)) == colour(x, y);
-        if (!row_finite) finite = false;
+        const Rgba* const row = colour.row(y);
+        int repaired = 0;
+        for (int x = 0; x < colour.width(); ++x) repaired += !(engine::finite_colour(row[x]) == row[x]);
+        if (repaired > 0) finite = false;
     });
     return finite;
 }

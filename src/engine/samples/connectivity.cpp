@@ -9,25 +9,29 @@ namespace petzval::engine {
 Image<unsigned char> connections(View<const float> coc, Workers& workers) {
     const int width = coc.width(), height = coc.height();
     Image<unsigned char> connected(width, height, kAll);
-    // Each pixel decides about its right and lower side; both pixels of the pair are marked. Rows are done in
-    // two sweeps so that no two threads write one row.
+    // Most steps are far below this, whatever the radii.
+    const float least_px = completion_model.step_between_px(0, 0);
     const auto joined = [&](int x, int y, int dx, int dy) {
         const float a = coc(x, y), b = coc(x + dx, y + dy);
-        return always_connected(a, b) ||
-               same_surface(a, b, a - coc.clamped(x - dx, y - dy), coc.clamped(x + 2 * dx, y + 2 * dy) - b);
+        return same_surface(a, b, a - coc.clamped(x - dx, y - dy), coc.clamped(x + 2 * dx, y + 2 * dy) - b);
     };
+    // Each row is written by one thread; both rows of a pair decide about it.
     parallel_for(height, workers, [&](int y) {
+        const float* const own = coc.row(y);
+        unsigned char* const out = connected.row(y);
+        const auto cut = [out](int x, Connected side) {
+            out[x] = static_cast<unsigned char>(out[x] & ~side);
+        };
         for (int x = 0; x + 1 < width; ++x)
-            if (!joined(x, y, 1, 0)) {
-                connected(x, y) = static_cast<unsigned char>(connected(x, y) & ~kRight);
-                connected(x + 1, y) = static_cast<unsigned char>(connected(x + 1, y) & ~kLeft);
-            }
-        for (int x = 0; x < width; ++x) {
-            if (y + 1 < height && !joined(x, y, 0, 1))
-                connected(x, y) = static_cast<unsigned char>(connected(x, y) & ~kDown);
-            if (y > 0 && !joined(x, y - 1, 0, 1))
-                connected(x, y) = static_cast<unsigned char>(connected(x, y) & ~kUp);
-        }
+            if (!(std::abs(own[x + 1] - own[x]) <= least_px) && !joined(x, y, 1, 0))
+                cut(x, kRight), cut(x + 1, kLeft);
+        const auto cut_from = [&](int above, Connected side) {
+            if (above < 0 || above + 1 >= height) return;
+            const float *const upper = coc.row(above), *const lower = coc.row(above + 1);
+            for (int x = 0; x < width; ++x)
+                if (!(std::abs(lower[x] - upper[x]) <= least_px) && !joined(x, above, 0, 1)) cut(x, side);
+        };
+        cut_from(y, kDown), cut_from(y - 1, kUp);
     });
     return connected;
 }
