@@ -3,8 +3,10 @@
 #include "petzval/depth.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <unordered_set>
 #include <vector>
@@ -18,18 +20,19 @@ constexpr float kNoValueFrom = 1e10f;
 // All values that there are, ascending; empty: more than a file's codes.
 std::vector<float> distinct_values(View<const float> values) {
     constexpr std::size_t kMost = 65536, kSome = 4096;
-    constexpr float kHardlyTwice = 0.9f;  // of some values so many distinct ones are not codes
-    std::unordered_set<float> found;
+    constexpr float kHardlyTwice = 0.9f;      // of some values so many distinct ones are not codes
+    std::unordered_set<std::uint32_t> found;  // as bits: numbers hash slowly
     std::size_t seen = 0;
     for (int y = 0; y < values.height(); ++y)
         for (int x = 0; x < values.width(); ++x) {
             const float v = values(x, y);
             if (!std::isfinite(v) || std::abs(v) >= kNoValueFrom) continue;
-            found.insert(v), ++seen;
+            found.insert(std::bit_cast<std::uint32_t>(v + 0.0f)), ++seen;  // (-0 + 0 is 0)
             if (found.size() > kMost || (seen == kSome && float(found.size()) > kHardlyTwice * kSome))
                 return {};
         }
-    std::vector<float> sorted(found.begin(), found.end());
+    std::vector<float> sorted;
+    for (const std::uint32_t bits : found) sorted.push_back(std::bit_cast<float>(bits));
     std::sort(sorted.begin(), sorted.end());
     return sorted;
 }

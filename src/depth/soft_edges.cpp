@@ -29,20 +29,25 @@ float range_of(View<const float> values) {
     return high - low;
 }
 
-// A row or a column of values.
+// A copy of a row or a column of values.
 class Line {
 public:
-    Line(View<const float> values, int number) : values_(values), number_(number) {}
-    int size() const { return number_ < values_.height() ? values_.width() : values_.height(); }
-    float at(int i) const {
-        i = std::clamp(i, 0, size() - 1);
-        return number_ < values_.height() ? values_(i, number_) : values_(number_ - values_.height(), i);
+    Line(View<const float> values, int number) {
+        const int column = number - values.height();
+        if (column < 0) {
+            values_.assign(values.row(number), values.row(number) + values.width());
+        } else {
+            values_.reserve(std::size_t(values.height()));
+            for (int y = 0; y < values.height(); ++y) values_.push_back(values(column, y));
+        }
     }
-    float step(int i) const { return at(i + 1) - at(i); }
+    int size() const { return int(values_.size()); }
+    float at(int i) const { return values_[std::size_t(std::clamp(i, 0, size() - 1))]; }
+    // Requires: i and i + 1 lie on the line.
+    float step(int i) const { return values_[std::size_t(i) + 1] - values_[std::size_t(i)]; }
 
 private:
-    View<const float> values_;
-    int number_;
+    std::vector<float> values_;
 };
 
 // A run of steps of one sign around their largest.
