@@ -31,8 +31,7 @@ public:
     WriteReport report() const { return {.clamped_to_half = clamped_, .non_finite = non_finite_}; }
 
 private:
-    template <typename Sample>
-    void fill_row(Sample* to, const Rgba* from, const Painted& how, float largest);
+    void fill_row(float* to, const Rgba* from, const Painted& how, float largest);
 
     Workers& workers_;
     std::atomic<std::size_t> clamped_{0}, non_finite_{0};
