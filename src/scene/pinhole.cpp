@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace petzval::scene {
@@ -49,9 +50,9 @@ public:
             }
             Vec3 sum = seen[pixel] / float(rays());
             const std::size_t before = samples.size();
-            if (layers_ > 1) collect_surfaces();
             for (const LampImage* lamp : lamps_)
                 if (lamp->touches({x, y_, x + 1, y_ + 1})) sum += collect_lamp(*lamp, x);
+            if (layers_ > 1) collect_surfaces(std::span(samples).subspan(before));
             colour[x - pass_.area.x0] = opaque(sum);
             counts.push_back(samples.size() - before);
             std::sort(samples.begin() + std::ptrdiff_t(before), samples.end(),
@@ -80,7 +81,7 @@ private:
     void trace_pixels(int x);
     void follow(Packet& packet, int first_ray, int lanes);
     bool note_hit(const Packet& packet, int lane, int ray, bool is_first);
-    void collect_surfaces();
+    void collect_surfaces(std::span<const DeepSample> lamps);
     Vec3 collect_lamp(const LampImage& lamp, int x);
     std::vector<Group> groups();
     void trace_centres(float* depth_m) const;
@@ -169,13 +170,18 @@ std::vector<Row::Group> Row::groups() {
     return found;
 }
 
-void Row::collect_surfaces() {
+// lamps: samples of those in the pixel.
+void Row::collect_surfaces(std::span<const DeepSample> lamps) {
     const std::vector<Group> found = groups();
+    // All rays may miss a lamp that fills little of the pixel.
+    float lamp_m = std::numeric_limits<float>::infinity();
+    for (const DeepSample& lamp : lamps) lamp_m = std::min(lamp_m, lamp.depth);
     // If only one surface shows, the visible picture is complete; a surface closely behind it would be
     // mistaken for it.
     double behind_m = 0;
     for (const Group& group : found)
-        if (group.first_rays == rays()) behind_m = group.depth_m() * double(1 + kDepthGap);
+        if (group.first_rays == rays() && group.depth_m() < double(lamp_m))
+            behind_m = group.depth_m() * double(1 + kDepthGap);
     for (const Group& group : found) {
         if (group.depth_m() < behind_m) continue;
         const float depth_m = float(group.depth_m());

@@ -230,6 +230,28 @@ TEST(SceneLayers, ComposedInOrderTheyMakeThePinholePicture) {
     }
 }
 
+TEST(SceneLayers, OfPixelsThatALampTouchesHoldTheSurfaceBehindIt) {
+    SceneSettings s;
+    s.width = 256, s.height = 144, s.want_layers = true;
+    const RenderedScene r = render_scene("bars", s).value();
+    int lit = 0;
+    for (int y = 0; y < s.height; ++y)
+        for (int x = 0; x < s.width; ++x) {
+            const auto samples = r.layers.at(x, y);
+            const float seen_m = r.depth_m(x, y);
+            if (samples.empty() || samples.front().depth > seen_m * 0.995f) continue;
+            ++lit;
+            EXPECT_TRUE(std::any_of(samples.begin(), samples.end(),
+                                    [&](const DeepSample& d) {
+                                        return std::isinf(seen_m)
+                                                   ? std::isinf(d.depth)
+                                                   : std::abs(d.depth - seen_m) < 0.05f * seen_m;
+                                    }))
+                << x << ", " << y;
+        }
+    EXPECT_GT(lit, 100);
+}
+
 TEST(SceneOverscan, AddsARimAndChangesNothingWithin) {
     SceneSettings s;
     s.width = 48, s.height = 27, s.samples = 16, s.truth_samples = 64;
