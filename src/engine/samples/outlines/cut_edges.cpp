@@ -61,7 +61,9 @@ CutEdges::Around CutEdges::around(Point hidden, float within_px, const Counts& c
             at.ahead < -completion_model.end_px - std::min(within_px, kAroundPx) ||
             at.ahead > e.length_px + std::min(within_px, kAroundPx))
             continue;
-        around.near_.push_back({e, at.aside, at.ahead});
+        constexpr std::size_t kUsual = 32;
+        if (around.near_.empty()) around.near_.reserve(kUsual);
+        around.near_.push_back({&e, at.aside, at.ahead});
     }
     return around;
 }
@@ -78,7 +80,7 @@ float CutEdges::Around::passes(Point shown, float coc_px) const {
     const CompletionModel& model = completion_model;
     float open = 1;
     for (const Near& near : near_) {
-        const Edge& e = near.edge;
+        const Edge& e = *near.edge;
         if (!is_on(e, coc_px)) continue;
         const FromCut at(e, shown);
         const float a = near.aside, b = at.aside;

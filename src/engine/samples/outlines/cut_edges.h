@@ -19,7 +19,7 @@ public:
     struct Point {
         int x, y;
     };
-    // The edges that may continue near a hidden point.
+    // The edges that may continue near a hidden point. Borrows them.
     class Around;
     Around around(Point hidden) const;
     // Those of the surface at coc_px that may stand between the point and a colour within within_px.
@@ -55,7 +55,7 @@ public:
 private:
     friend class CutEdges;
     struct Near {
-        Edge edge;
+        const Edge* edge;
         float aside, ahead;  // of the hidden point: to which side of the edge, and how far along it
     };
     std::vector<Near> near_;

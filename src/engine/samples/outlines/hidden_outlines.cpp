@@ -62,6 +62,8 @@ HiddenOutlines::Around HiddenOutlines::around(PixelAt hidden) const {
         const PlanePoint to = place_of(hidden, o);
         const float right_px = o.arc.right_of(to), along_px = o.arc.along(to);
         const float beyond_px = std::max({0.0f, -along_px, along_px - o.length_px});
+        constexpr std::size_t kUsual = 16;
+        if (around.near_.empty()) around.near_.reserve(kUsual);
         around.near_.push_back({&o, to, right_px});
         around.distance_px_ = std::min(around.distance_px_, std::hypot(right_px, beyond_px));
     }
