@@ -85,6 +85,33 @@ TEST(Hidden, PartsOfAMixedPixelMakeThePixel) {
     EXPECT_GT(mixed, 100);
 }
 
+// A ball before a wall.
+TEST(Hidden, PixelsShareGuessesWhateverTheLastDigitsOfColoursAre) {
+    const auto guesses = [](float noise) {
+        constexpr float kBallPx = -20;
+        Picture colour(kWidth, kHeight);
+        Plane coc(kWidth, kHeight);
+        for (int y = 0; y < kHeight; ++y)
+            for (int x = 0; x < kWidth; ++x) {
+                const bool ball = std::hypot(float(x) - 23.3f, float(y) - 22.6f) < 16;
+                colour(x, y) = grey(ball ? 0.1f : 0.3f + noise * float((x * 31 + y * 17) % 7));
+                coc(x, y) = ball ? kBallPx : kFarPx;
+            }
+        const Image<unsigned char> connected = connections(coc, one_thread());
+        const LitPicture picture{colour, {}};
+        const Mixtures mixtures = unmix_silhouettes(picture, coc, connected, one_thread());
+        FillRule plain;
+        plain.textures = false;
+        std::size_t count = 0;
+        for (const auto& band :
+             fill_hidden(picture, coc, connected, mixtures, kBallPx, kFarPx, plain, one_thread()).bands)
+            count += band.size();
+        return count;
+    };
+    EXPECT_GT(guesses(0), 0);
+    for (const float noise : {1e-6f, 1e-5f, 1e-4f}) EXPECT_EQ(guesses(noise), guesses(0)) << noise;
+}
+
 // A post hides a bright box except a sliver of two pixels beside a dark wall: the clean pixels nearby are the
 // wall's.
 TEST(Hidden, ASliverKeepsItsColourBesideAThirdSurface) {

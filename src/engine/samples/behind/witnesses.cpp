@@ -14,18 +14,22 @@ public:
     // A colour. A texture states a share of it.
     void add(Rgba colour, const HiddenTextures::Point::Told& told, float weight) {
         const float plain = weight * (1 - told.share);
-        colour_ += plain * colour, plain_ += plain, texture_ += weight * told.colour;
+        colour_ += plain * colour, plain_ += plain;
+        texture_ += weight * told.colour;
+        textured_ += weight * told.share;
     }
     void add(float coc_px, float weight) { coc_ += weight * coc_px, total_ += weight; }
     HiddenGuess mean() const {
-        HiddenGuess guess{{{}, coc_ / total_, 1}, texture_ * (1 / total_), plain_ / total_, 0};
+        // (Exactly 1 without textures, for only then do pixels share a guess: rounding must not decide.)
+        const float plain = std::max(0.0f, 1 - textured_ / total_);
+        HiddenGuess guess{{{}, coc_ / total_, 1}, texture_ * (1 / total_), plain, 0};
         if (plain_ > 0) guess.seen.colour = colour_ * (1 / plain_);
         return guess;
     }
 
 private:
     Rgba colour_, texture_;
-    float plain_ = 0, coc_ = 0, total_ = 0;
+    float plain_ = 0, textured_ = 0, coc_ = 0, total_ = 0;
 };
 
 HiddenGuess Witnesses::surface(const HiddenPixel& here, Hits& hits, Met& met) const {
