@@ -100,6 +100,24 @@ TEST(EdgeEnds, AFloorThatRecedesStaysOneSurface) {
     for (const float hidden_px : found.hidden_px) EXPECT_NEAR(hidden_px, float(kLeafBottom - kLeafTop), 4);
 }
 
+// The edge ends in sight a few rows above the leaf.
+TEST(EdgeEnds, NoiseInAPlainAreaProlongsNoEdge) {
+    const auto known_px = [](float noise) {
+        Scene scene(kSize);
+        for (int y = 0; y < kLeafTop - 5; ++y)
+            for (int x = 0; x < kSize; ++x) {
+                const float c = 0.5f + noise * left_of_edge(x, y);
+                scene.colour(x, y) = {c, c, c, 1};
+            }
+        float sum = 0;
+        for (const EdgeEnd& e : Found(scene).ends) sum += e.known_px;
+        return sum;
+    };
+    EXPECT_GT(known_px(0), 0);
+    EXPECT_EQ(known_px(1e-4f), known_px(0));
+    EXPECT_EQ(known_px(2e-4f), known_px(0));
+}
+
 TEST(EdgeEnds, NoneIsFoundOnSurfacesWithMoreBlurOrInPlainOnes) {
     EXPECT_TRUE(Found(Scene(), 0.5f * kWallPx).ends.empty());
     Scene plain;

@@ -46,8 +46,8 @@ float EdgePoints::change_at(const EdgePlace& place) const {
     return (to - from) / (from + to + 2 * dark_);
 }
 
-// The change of an edge of two plain areas spreads over
-// three pixels, and its centre is the edge.
+// The change of an edge of two plain areas spreads over three pixels, and its centre is the edge. A smaller
+// part of the least contrast than one in edge_traced_px is noise: it neither starts nor prolongs an edge.
 bool EdgePoints::at(const EdgePlace& place, EdgePoint& point) const {
     const float here = change_at(place), size = std::abs(here);
     if (!(size > 0)) return false;  // (nor is NaN an edge)
@@ -58,8 +58,10 @@ bool EdgePoints::at(const EdgePlace& place, EdgePoint& point) const {
     if (before > size) return false;
     const float after = beside(1);
     if (after >= size) return false;
-    point = {(after - before) / (before + size + after), before * before + size * size + after * after,
-             here > 0};
+    const float energy = before * before + size * size + after * after;
+    const float parts = completion_model.edge_traced_px;
+    if (energy * parts * parts < completion_model.edge_change) return false;  // (both are squares)
+    point = {(after - before) / (before + size + after), energy, here > 0};
     return true;
 }
 
