@@ -11,10 +11,11 @@
 namespace petzval::engine {
 namespace {
 
-// A pixel, by the light of lamps in it; clean: it touches no silhouette.
+// A pixel and its place, by the light of lamps in it; clean: it touches no silhouette.
 struct LitPixel {
     float light = 0, coc_px = 0;
     bool clean = false;
+    int x = 0, y = 0;
 };
 
 // Likeness of two lights in colour, 0…1: red and white are hardly alike.
@@ -53,14 +54,14 @@ float share_of_surface(const std::vector<LitPixel>& nearer) {
 }
 
 // True if a lamp lights farther pixels on opposite sides of the nearer one at (x, y), at least half as bright
-// as its `light`: it shines past a strand. A lamp on the strand would cover less than half of those pixels,
-// or they would be near too.
+// as the brightest `near` light: it shines past a strand. A lamp on the strand would cover less than half of
+// those pixels, or they would be near too.
 bool shines_past(const LitPicture& picture, View<const float> coc, int x, int y, float threshold,
-                 float light) {
+                 float near) {
     const auto lit = [&](int dx, int dy) {
         const int u = x + dx, v = y + dy;
         return coc.rect().contains(u, v) && coc(u, v) > threshold &&
-               luminance(picture.colour(u, v) - picture.dim(u, v)) >= 0.5f * light;
+               luminance(picture.colour(u, v) - picture.dim(u, v)) >= 0.5f * near;
     };
     const auto on_both_sides = [&](int dx, int dy) { return lit(dx, dy) && lit(-dx, -dy); };
     return on_both_sides(1, 0) || on_both_sides(0, 1) || on_both_sides(1, 1) || on_both_sides(1, -1);
@@ -76,19 +77,20 @@ LampsBehind find_lamps(const LitPicture& picture, View<const float> coc, View<co
     if (own == Rgba{}) own = picture.colour(x, y);
     float near = 0, far = 0;
     std::vector<LitPixel> nearer;
-    bool past_strand = false;
     for (int v = window.y0; v < window.y1; ++v)
         for (int u = window.x0; u < window.x1; ++u) {
             const Rgba lamp = picture.colour(u, v) - picture.dim(u, v);
             const float light = luminance(lamp) * alike(lamp, own);
             if (coc(u, v) <= threshold) {
-                nearer.push_back({light, coc(u, v), !touching(u, v)});
+                nearer.push_back({light, coc(u, v), !touching(u, v), u, v});
                 near = std::max(near, light);
-                past_strand = past_strand || (light > 0 && shines_past(picture, coc, u, v, threshold, light));
             } else if (light > far) {
                 far = light, far_coc = coc(u, v);
             }
         }
+    const bool past_strand = std::any_of(nearer.begin(), nearer.end(), [&](const LitPixel& p) {
+        return p.light > 0 && shines_past(picture, coc, p.x, p.y, threshold, near);
+    });
     // A lamp behind may light only the pixels of the edge that it shines past.
     const float sure = past_strand ? 0 : share_of_surface(nearer);
     far = std::max(far, completion_model.unseen_lamp * (1 - sure) * near);

@@ -24,7 +24,7 @@ struct Scene {
     }
     // Share of the lamps' light in the middle pixel that lies behind the strand.
     float share_behind() const {
-        const LitPicture picture{colour, [](int, int, Rgba light) { return light.r > 1 ? kDark : light; }};
+        const LitPicture picture{colour, {[](int, int, Rgba light) { return light.r > 1 ? kDark : light; }}};
         const auto touching = touching_silhouettes(picture, connections(coc, one_thread()), one_thread());
         return find_lamps(picture, coc, touching, kMiddle, kMiddle, 0.5f * (kNearPx + kWallPx), kWallPx)
             .share;
@@ -51,6 +51,20 @@ TEST(EdgeLamps, ALampOnAStrandStaysThere) {
             const bool is_rim = std::abs(x - kMiddle) == 2;
             scene.colour(x, y) = is_rim ? 0.3f * kLit : kLit;
             if (!is_rim) scene.coc(x, y) = kNearPx;
+        }
+    EXPECT_EQ(scene.share_behind(), 0);
+}
+
+// A pixel of a globe's rim has the globe's depth, the ones above and below have the wall's: the globe fills
+// half of each of the three.
+TEST(EdgeLamps, ARimPixelThatStandsOutOfAGlobeIsNoStrand) {
+    Scene scene;
+    for (int y = 0; y < kSize; ++y) scene.coc(kMiddle, y) = kWallPx;
+    for (int y = kMiddle - 2; y <= kMiddle + 2; ++y)
+        for (int x = kMiddle - 4; x <= kMiddle; ++x) {
+            const bool is_rim = x == kMiddle;
+            scene.colour(x, y) = is_rim ? 0.5f * kLit : kLit;
+            if (!is_rim || y == kMiddle) scene.coc(x, y) = kNearPx;
         }
     EXPECT_EQ(scene.share_behind(), 0);
 }
