@@ -196,7 +196,7 @@ void PreparedFrame::take_samples(const FrameRequest& request, View<const float> 
     plate_ = engine::back_picture(stated, *request.workers);
     const bool all = request.view == ScatterView::Layers || request.view == ScatterView::Hidden;
     if (!plate_.empty()) seen.plate = {plate_.colour, plate_.coc_px, all};
-    if (!all) engine::drop_out_of_sight(samples_, lens_reach_px, *request.workers);
+    if (!all) engine::drop_out_of_sight(samples_, lens_reach_px, open_edges(request), *request.workers);
     if (!samples_.first.empty()) seen.deep = samples_;
     seen.deep_dims_itself = request.rendered.deep && !request.rendered.deep->empty();
     if (request.look.fill != Fill::Full && !seen.deep.empty() &&

@@ -44,7 +44,8 @@ CocSamples completed_before_plate(const EngineView& input, View<const unsigned c
         ->rows(0, height, back);
     flat_picture(input, connected, dim, &back)->rows(0, height, all);
     if (!input.samples.plate.all)
-        drop_out_of_sight(all, input.lens.level(0).reach_px(1), *input.services.workers);
+        drop_out_of_sight(all, input.lens.level(0).reach_px(1), input.window.open_edges,
+                          *input.services.workers);
     return all;
 }
 

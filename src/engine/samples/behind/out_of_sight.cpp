@@ -21,8 +21,11 @@ constexpr float kMarginPx = 1.5f;  // pixels have a width; with half a pixel les
 // Borgefors 1986).
 class Sheets {
 public:
-    Sheets(const CocSamples& samples, double stretch)
-        : all_(samples), per_px_(1 / float(stretch)), seen_from_(samples.samples.size(), kNever) {
+    Sheets(const CocSamples& samples, double stretch, const OpenEdges& open)
+        : all_(samples),
+          per_px_(1 / float(stretch)),
+          open_(open),
+          seen_from_(samples.samples.size(), kNever) {
         for (int y = 0; y < all_.height(); ++y)
             for (int x = 0; x < all_.width; ++x) find_ends(x, y);
         for (int y = 0; y < all_.height(); ++y)
@@ -72,11 +75,14 @@ private:
         for (std::size_t k = all_.first[pixel(x, y)]; k < all_.first[pixel(x, y) + 1]; ++k)
             if (is_opaque(k)) visit(k);
     }
-    // The frame's border counts as an end: the sheet may end just beyond it.
     void find_ends(int x, int y) {
+        const struct {
+            int dx, dy;
+            bool open;  // the picture continues beyond this edge
+        } sides[] = {{-1, 0, open_.left}, {1, 0, open_.right}, {0, -1, open_.top}, {0, 1, open_.bottom}};
         for_opaque(x, y, [&](std::size_t k) {
-            for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}})
-                if (!contains(x + dx, y + dy) || next(k, x, y, dx, dy) == kNone)
+            for (const auto& [dx, dy, open] : sides)
+                if (contains(x + dx, y + dy) ? next(k, x, y, dx, dy) == kNone : !open)
                     seen_from_[k] = all_.samples[k].coc_px;
         });
     }
@@ -96,14 +102,15 @@ private:
 
     const CocSamples& all_;
     float per_px_;
+    OpenEdges open_;
     std::vector<float> seen_from_;  // per opaque sample: samples behind it are visible from this radius on
 };
 
 }  // namespace
 
-void drop_out_of_sight(CocSamples& samples, double stretch, Workers& workers) {
+void drop_out_of_sight(CocSamples& samples, double stretch, const OpenEdges& open, Workers& workers) {
     if (samples.first.empty() || samples.samples.size() < samples.first.size()) return;
-    const Sheets sheets(samples, stretch);
+    const Sheets sheets(samples, stretch, open);
     std::vector<unsigned char> hidden(samples.samples.size());
     parallel_for(samples.height(), workers, [&](int y) {
         for (int x = 0; x < samples.width; ++x) {
