@@ -42,7 +42,7 @@ bool is_from_behind(BigVector<CocSample>& samples, std::size_t first, Rgba pictu
         const float apart_px = samples[k].coc_px - samples[first].coc_px;
         if (front.a > 0 && apart_px > kTogetherPx && dark < bright && bright < behind) {
             const float covers = std::max(largest, (behind - bright) / (behind - dark));
-            const float scale = std::min(1.0f, covers / front.a);
+            const float scale = largest > laws::kOpaque ? 1 : std::min(1.0f, covers / front.a);
             const auto wrong_by = [&](float times) {
                 const float open = std::max(0.0f, 1 - times * front.a);
                 return difference(times * front + open * samples[k].colour, picture);

@@ -12,20 +12,25 @@ namespace {
 
 constexpr float kShownPx = 1.30f, kRightBehindPx = 1.35f, kSkyPx = 1.9f;
 
-std::vector<CocSample> samples_with(float alpha_right_behind) {
-    const Picture colour(1, 1, Rgba{0.1f, 0.1f, 0.1f, 1});
-    const Plane radii(1, 1, kShownPx);
-    const auto behind = DeepPicture::made_of(1, 1, [&](int, int, std::vector<DeepSample>& into) {
-        const float a = alpha_right_behind;
-        into.push_back({{0.2f * a, 0.2f * a, 0.2f * a, a}, kRightBehindPx, kRightBehindPx});
-        into.push_back({{5, 5, 5, 1}, kSkyPx, kSkyPx});
-    });
+// The samples of a pixel that shows this colour and has this radius.
+std::vector<CocSample> samples_of(Rgba shown, float radius_px, const std::vector<DeepSample>& given) {
+    const Picture colour(1, 1, shown);
+    const Plane radii(1, 1, radius_px);
+    const auto behind =
+        DeepPicture::made_of(1, 1, [&](int, int, std::vector<DeepSample>& into) { into = given; });
     const StatedPicture stated{.colour = colour,
                                .depth = radii,
                                .behind = &behind,
                                .meaning = StatedRadii{[](float radius) { return radius; }}};
     const CocSamples all = all_samples(stated, one_thread());
     return {all.samples.begin(), all.samples.end()};
+}
+
+std::vector<CocSample> samples_with(float alpha_right_behind) {
+    const float a = alpha_right_behind;
+    return samples_of({0.1f, 0.1f, 0.1f, 1}, kShownPx,
+                      {{{0.2f * a, 0.2f * a, 0.2f * a, a}, kRightBehindPx, kRightBehindPx},
+                       {{5, 5, 5, 1}, kSkyPx, kSkyPx}});
 }
 
 // Beside a surface that blurs less, the lens looks past the first one: the second hides the sky from it.
@@ -44,19 +49,9 @@ TEST(AllSamples, ATranslucentOneHasNoRoomThere) {
 
 // One pixel that shows this colour, its two dark samples in front of a sign, and the sign itself.
 std::vector<CocSample> dark_before_a_sign(Rgba shown, float first, float second, Rgba sign) {
-    const Picture colour(1, 1, shown);
-    const Plane radii(1, 1, -0.08f);
-    const auto behind = DeepPicture::made_of(1, 1, [&](int, int, std::vector<DeepSample>& into) {
-        into.push_back({{0, 0, 0, first}, -0.082f, -0.082f});
-        into.push_back({{0, 0, 0, second}, -0.08f, -0.08f});
-        into.push_back({sign, 0.93f, 0.93f});
-    });
-    const StatedPicture stated{.colour = colour,
-                               .depth = radii,
-                               .behind = &behind,
-                               .meaning = StatedRadii{[](float radius) { return radius; }}};
-    const CocSamples all = all_samples(stated, one_thread());
-    return {all.samples.begin(), all.samples.end()};
+    return samples_of(
+        shown, -0.08f,
+        {{{0, 0, 0, first}, -0.082f, -0.082f}, {{0, 0, 0, second}, -0.08f, -0.08f}, {sign, 0.93f, 0.93f}});
 }
 
 // Two black samples state 0.4 and 0.62, but the second is hidden in part by the first: 0.375 of a sign shows.
@@ -74,6 +69,17 @@ TEST(AllSamples, LightOfAnotherColourIsNotFromBehind) {
     const auto samples = dark_before_a_sign({0.9f, 0.5f, 0.1f, 1}, 0.28f, 0.44f, {0.2f, 0.9f, 0.9f, 1});
     ASSERT_EQ(samples.size(), 3u);
     EXPECT_FLOAT_EQ(samples[0].colour.a + samples[1].colour.a, 0.72f);
+}
+
+// The pixel is brighter than the hair, because it shows the dress too, and not the sky behind the wall.
+TEST(AllSamples, NoLightComesThroughAWall) {
+    const auto samples = samples_of({0.14f, 0.13f, 0.09f, 1}, 36.87f,
+                                    {{{0.12f, 0.08f, 0.06f, 0.97f}, 36.87f, 36.87f},
+                                     {{0.16f, 0.22f, 0.13f, 0.98f}, 36.88f, 36.88f},
+                                     {{0.06f, 0.055f, 0.057f, 1}, 40.6f, 40.6f},
+                                     {{0.8f, 0.83f, 0.85f, 1}, 55.2f, 55.2f}});
+    ASSERT_EQ(samples.size(), 4u);
+    EXPECT_EQ(samples[2].colour.a, 1) << "the wall";
 }
 
 }  // namespace
