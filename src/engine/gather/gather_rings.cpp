@@ -72,19 +72,28 @@ RingRule ring_rule(Quality quality) {
 
 RingSizes::RingSizes(float nearest_px, float farthest_px, const RingRule& rule, const LensOnPicture& lens)
     : rule_(rule) {
-    for (const float r : steps_down_from(-nearest_px, rule.ratio)) radii_px_.push_back(-r);
-    const int zero_of_rings = count();
-    radii_px_.push_back(0);
-    const std::vector<float> far = steps_down_from(farthest_px, rule.ratio);
-    radii_px_.insert(radii_px_.end(), far.rbegin(), far.rend());
-    for (const float radius : radii_px_) {
-        const float r = std::abs(radius);
-        int level = 0;
-        if (r > rule.full_res_px)
-            level =
-                std::max(1, int(std::ceil(std::log2(size_of(lens, radius) / rule.largest_cells) - 1e-4f)));
-        levels_.push_back(level);
+    const auto level_of = [&](float r) {
+        if (r <= rule.full_res_px) return 0;
+        return std::max(1, int(std::ceil(std::log2(size_of(lens, r) / rule.largest_cells) - 1e-4f)));
+    };
+    const auto add = [&](float radius, int level) {
+        radii_px_.push_back(radius), levels_.push_back(level);
         skirt_levels_.push_back(skirt_level_of(lens, rule, radius, level));
+    };
+    // Two rings have one radius where the level changes, so that no light is shared between levels.
+    const std::vector<float> near = steps_down_from(-nearest_px, rule.ratio);
+    for (std::size_t i = 0; i < near.size(); ++i) {
+        const int level = level_of(near[i]), next = i + 1 < near.size() ? level_of(near[i + 1]) : 0;
+        add(-near[i], level);
+        if (next != level) add(-near[i], next);
+    }
+    const int zero_of_rings = count();
+    add(0, 0);
+    std::vector<float> far = steps_down_from(farthest_px, rule.ratio);
+    for (; !far.empty(); far.pop_back()) {
+        const int level = level_of(far.back()), last = levels_.back();
+        if (last != level) add(far.back(), last);
+        add(far.back(), level);
     }
     put_in_order();
     const auto squared = [&](int ring) {
@@ -134,8 +143,10 @@ RingSizes::Sizes RingSizes::light_of(int level) const {
     for (int ring = 0; ring < count(); ++ring) {
         if (this->level(ring) != level && (level == 0 || skirt_level(ring) != level)) continue;
         if (radius_px(ring) == 0) sizes.above_px = -1;  // light in focus belongs to it
-        // A ring extends to the rings beside it, the outermost without end.
-        for (const int beside : {ring - 1, ring + 1}) {
+        // A ring extends to the next radii beside it, the outermost without end.
+        for (const int step : {-1, 1}) {
+            int beside = ring + step;
+            if (beside >= 0 && beside < count() && radius_px(beside) == radius_px(ring)) beside += step;
             const float r = beside < 0 || beside == count() ? std::numeric_limits<float>::infinity()
                                                             : std::abs(radius_px(beside));
             sizes.above_px = std::min(sizes.above_px, r), sizes.below_px = std::max(sizes.below_px, r);
