@@ -301,7 +301,7 @@ LevelRule level_rule(const EngineView& input) {
     }
     rule.hidden_known = !input.samples.deep.empty();
     if (rule.hidden_known && input.options.quality != Quality::Draft)
-        rule.inner_sectors = 3, rule.outer_sectors = 13;
+        rule.surfaces_for_sectors = 1, rule.inner_sectors = 3, rule.outer_sectors = 13;
     return rule;
 }
 

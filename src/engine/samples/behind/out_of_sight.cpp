@@ -60,14 +60,16 @@ private:
                 best = k, tolerance_px = apart;
         return best;
     }
-    // The sample of pixel (x + dx, y + dy) that continues the sheet of sample k of (x, y), or kNone.
+    // The sample of pixel (x + dx, y + dy) that continues the sheet of sample k of (x, y), or kNone. Visible
+    // samples farther apart are one sheet, unless either continues behind the other.
     std::size_t next(std::size_t k, int x, int y, int dx, int dy) const {
         const float own = all_.samples[k].coc_px;
-        const std::size_t at = pixel(x + dx, y + dy), shown = all_.first[at];
-        if (k == all_.first[pixel(x, y)] && shown < all_.first[at + 1] && is_opaque(shown) &&
-            std::abs(all_.samples[shown].coc_px - own) <= kShownStepPx)
-            return shown;
-        return nearest(at, own, kHiddenStepPx);
+        const std::size_t here = pixel(x, y), there = pixel(x + dx, y + dy), shown = all_.first[there];
+        const std::size_t alike = nearest(there, own, kHiddenStepPx);
+        if (alike != kNone || k != all_.first[here] || shown == all_.first[there + 1]) return alike;
+        const float beside = all_.samples[shown].coc_px;
+        const bool connected = is_opaque(shown) && std::abs(beside - own) <= kShownStepPx;
+        return connected && nearest(here, beside, kHiddenStepPx) == kNone ? shown : kNone;
     }
     bool contains(int x, int y) const { return x >= 0 && y >= 0 && x < all_.width && y < all_.height(); }
     template <typename Visit>
