@@ -2,8 +2,9 @@
 
 #include "petzval/depth.h"
 
+#include "base/bits.h"
+
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -27,12 +28,12 @@ std::vector<float> distinct_values(View<const float> values) {
         for (int x = 0; x < values.width(); ++x) {
             const float v = values(x, y);
             if (!std::isfinite(v) || std::abs(v) >= kNoValueFrom) continue;
-            found.insert(std::bit_cast<std::uint32_t>(v + 0.0f)), ++seen;  // (-0 + 0 is 0)
+            found.insert(bits_as<std::uint32_t>(v + 0.0f)), ++seen;  // (-0 + 0 is 0)
             if (found.size() > kMost || (seen == kSome && float(found.size()) > kHardlyTwice * kSome))
                 return {};
         }
     std::vector<float> sorted;
-    for (const std::uint32_t bits : found) sorted.push_back(std::bit_cast<float>(bits));
+    for (const std::uint32_t bits : found) sorted.push_back(bits_as<float>(bits));
     std::sort(sorted.begin(), sorted.end());
     return sorted;
 }
