@@ -67,34 +67,30 @@ TEST(OutOfSight, AWallThatLeansHidesAsMuch) {
     for (int x = 12; x < kWidth; ++x) EXPECT_EQ(samples_at(all, x, 15), 1U) << x;
 }
 
-// The wall before the light stands behind a post, which ends.
-TEST(OutOfSight, AWallBehindSomethingElseHidesAsMuch) {
+// The wall, with something at this radius before its columns first…end-1.
+CocSamples wall_behind(int first, int end, float coc_px) {
     const CocSamples bare = wall();
     CocSamples all;
     all.width = kWidth;
     for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x) {
             all.first.push_back(all.samples.size());
-            if (x == 20) all.samples.push_back({{0.1f, 0.1f, 0.1f, 1}, -9, -9});
+            if (x >= first && x < end) all.samples.push_back({{0.1f, 0.1f, 0.1f, 1}, coc_px, coc_px});
             for (const CocSample& s : CocSamplesView(bare).at(x, y)) all.samples.push_back(s);
         }
     all.first.push_back(all.samples.size());
+    return all;
+}
+
+TEST(OutOfSight, AWallBehindAPostHidesAsMuch) {
+    CocSamples all = wall_behind(20, 21, -9);
     drop_out_of_sight(all, 1, {}, one_thread());
     for (int x = 18; x < 23; ++x) EXPECT_EQ(samples_at(all, x, 15), x == 20 ? 2U : 1U) << x;
 }
 
 // The box is so near to the wall behind it that it might be a part of it; but the wall continues behind it.
 TEST(OutOfSight, AWallBehindABoxThatStandsAtItHidesAsMuch) {
-    const CocSamples bare = wall();
-    CocSamples all;
-    all.width = kWidth;
-    for (int y = 0; y < kHeight; ++y)
-        for (int x = 0; x < kWidth; ++x) {
-            all.first.push_back(all.samples.size());
-            if (x < 20) all.samples.push_back({{0.1f, 0.1f, 0.1f, 1}, kWallPx - 0.7f, kWallPx - 0.7f});
-            for (const CocSample& s : CocSamplesView(bare).at(x, y)) all.samples.push_back(s);
-        }
-    all.first.push_back(all.samples.size());
+    CocSamples all = wall_behind(0, 20, kWallPx - 0.7f);
     drop_out_of_sight(all, 1, {}, one_thread());
     for (int x = 18; x < 25; ++x) EXPECT_EQ(samples_at(all, x, 15), x < 20 ? 2U : 1U) << x;
 }
