@@ -17,10 +17,10 @@
 namespace petzval::engine {
 
 struct RingRule {
-    float ratio = 1.15f;    // of one radius to the next
-    float full_res_px = 6;  // rings up to this radius are gathered at full resolution
-    float largest_cells =
-        12;  // rings beyond, at the finest of 1/2, 1/4, … where they are not wider than this
+    float ratio = 1.15f;  // of one radius to the next
+    // Rings up to this radius, and one more, are gathered at full resolution; those beyond, at the finest of
+    // 1/2, 1/4, … where they, or all but the last, are not wider than largest_cells.
+    float full_res_px = 6, largest_cells = 12;
     // Aberrations spread light wider than its ring's radius. A kernel that does not end within core_end() is
     // gathered in two pieces: its core on the ring's level, its skirt on a coarser one where it is as small.
     float full_res_core = 6;  // cells up to which a core is whole at full resolution; elsewhere largest_cells
@@ -30,7 +30,8 @@ struct RingRule {
 RingRule ring_rule(Quality quality);
 
 // Radii of the rings: 0, and steps of `ratio` down from the largest radius on either side, so that infinity
-// has its own ring exactly. Numbered from the nearest (most negative) to the farthest.
+// has its own ring exactly. Where the level changes, a radius has a ring on either level, so that no source
+// lies between two levels. Numbered from the nearest (most negative) to the farthest.
 class RingSizes {
 public:
     RingSizes(float nearest_px, float farthest_px, const RingRule& rule, const LensOnPicture& lens);
@@ -87,12 +88,10 @@ public:
         return skirt > 0 && skirt == level ? skirt_entry(turn) : -1;
     }
 
-    // Calls emit(turn, share) for the rings of a source. Hidden light between two levels goes to the farther
-    // ring alone: the nearer one is composited before it is known.
+    // Calls emit(turn, share) for the rings of a source.
     template <typename Emit>
     void hand_out(float coc_px, bool hidden, const Emit& emit) const {
-        Mix to = mix(coc_px);
-        if (hidden && level(to.inner) != level(to.outer)) to.outer_share = to.outer > to.inner ? 1.0f : 0.0f;
+        const Mix to = mix(coc_px);
         const auto give = [&](int ring, float share) {
             if (share > 0) emit(turn_of_[std::size_t(2 * ring + (hidden ? 1 : 0))], share);
         };

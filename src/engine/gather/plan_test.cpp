@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <set>
 
@@ -157,6 +156,26 @@ TEST(GatherPlan, LightInFocusHasItsSkirtToo) {
         if (sizes.is_skirt(light.entry) && sizes.ring_of_entry(light.entry) == sharp)
             covered += light.covered;
     EXPECT_NEAR(covered, 1, 1e-4);
+}
+
+// Groups of rings are combined level by level: the group behind would give a surface's other part to the sky.
+TEST(GatherPlan, NoSourceIsSharedBetweenLevels) {
+    Planned shot;
+    shot.put({0, 0, 100, 100}, -70);
+    shot.put({500, 300, 600, 380}, 40);
+    const RingSizes sizes = shot.sizes();
+    ASSERT_GT(sizes.levels(), 2);
+    for (float coc_px = -70; coc_px <= 40; coc_px += 0.05f)
+        for (const bool hidden : {false, true}) {
+            std::set<int> levels;
+            float all = 0;
+            sizes.hand_out(coc_px, hidden, [&](int turn, float share) {
+                levels.insert(sizes.level_of_turn(turn)), all += share;
+            });
+            ASSERT_EQ(levels.size(), 1U) << coc_px;
+            EXPECT_TRUE(sizes.light_of(*levels.begin()).contains(coc_px)) << coc_px;
+            EXPECT_NEAR(all, 1, 1e-6) << coc_px;
+        }
 }
 
 TEST(GatherPlan, RingsOfOneRadiusShareAKernelWhateverLiesBeside) {
