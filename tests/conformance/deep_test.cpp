@@ -303,5 +303,24 @@ TEST(Deep, ManySamplesAndWildOnesStayFiniteAndBounded) {
     }
 }
 
+// A floor of one colour crosses a change of level, and ends at column 48. The sky beyond is known behind it.
+// Rays that pass its end come no nearer than its radius; columns 32 to 37 see nothing but floor.
+TEST(Deep, GatherShowsNoSkyThroughAFloorThatGoesOutOfFocus) {
+    const Rgba floor{0.1f, 0.1f, 0.1f, 1};
+    for (const float slope : {0.02f, 0.06f, 0.12f}) {
+        const DeepShot shot = DeepShot::make(64, 120, [&](int x, int y) {
+            Samples samples;
+            if (x < 48) samples.push_back(surface(floor, 6.5f + slope * float(60 - y)));
+            samples.push_back(surface({1, 1, 1, 1}, 20));
+            return samples;
+        });
+        const Picture image = rendered(shot.job("gather"));
+        float most = 0;
+        for (int y = 40; y < 80; ++y)
+            for (int x = 32; x < 38; ++x) most = std::max(most, image(x, y).g);
+        EXPECT_LT(most, 0.12f) << slope;
+    }
+}
+
 }  // namespace
 }  // namespace petzval::conformance

@@ -154,6 +154,26 @@ TEST(Device, GatherDrawsAsTheCpuDoes) {
     }
 }
 
+// A floor across a change of level, with the sky known behind it.
+TEST(Device, GatherClosesSeamsAsTheCpuDoes) {
+    if (gpus().empty()) GTEST_SKIP() << why_no_gpu();
+    Shot shot = flat(64, 100, {1, 1, 1, 1}, 20);
+    for (int y = 0; y < 100; ++y)
+        for (int x = 0; x < 48; ++x) {
+            shot.colour(x, y) = {0.1f, 0.01f * float(x), 0.1f, 1};
+            shot.coc_px(x, y) = 0.1f * float(y) + 1.5f;
+        }
+    shot.behind = DeepPicture::made_of(64, 100, [](int x, int, std::vector<DeepSample>& samples) {
+        if (x < 48) samples.push_back({{1, 1, 1, 1}, 20, 20});
+    });
+    Session cpu = session_on("cpu");
+    const Picture expected = drawn(cpu, shot.job("gather"), "cpu");
+    for (const std::string& gpu : gpus()) {
+        Session session = session_on(gpu);
+        EXPECT_GE(psnr(expected, drawn(session, shot.job("gather"), gpu)), 90) << gpu;
+    }
+}
+
 // A lamp whose disc a bar cuts, alone: what is near it is dark.
 TEST(Device, ShadowsLightsAsTheCpuDoes) {
     if (gpus().empty()) GTEST_SKIP() << why_no_gpu();

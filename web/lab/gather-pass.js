@@ -199,14 +199,14 @@ export class GatherPass {
   }
 
   #turns(words) {
-    const each = 6 + 2 * this.zones, count = words.length / each, turns = [];
+    const each = 7 + 2 * this.zones, count = words.length / each, turns = [];
     const table = new Int32Array(Math.max(1, 2 * count * this.zones));
     for (let t = 0; t < count; t++) {
-      const [level, first, lights, coarse, skirtFirst, skirtLights, ...kernels] = words.subarray(each * t, each * (t + 1));
+      const [level, first, lights, coarse, skirtFirst, skirtLights, isSeam, ...kernels] = words.subarray(each * t, each * (t + 1));
       const core = kernels.filter((_, i) => i % 2 === 0), skirt = kernels.filter((_, i) => i % 2 === 1);
       table.set(core.map((k) => k | 0), 2 * t * this.zones);
       table.set(skirt.map((k) => k | 0), (2 * t + 1) * this.zones);
-      turns.push({ level, core: { level, first, lights, row: 2 * t, reach: this.#reach(core) }, skirt: { level: coarse, first: skirtFirst, lights: skirtLights, row: 2 * t + 1, reach: this.#reach(skirt) } });
+      turns.push({ level, isSeam, core: { level, first, lights, row: 2 * t, reach: this.#reach(core) }, skirt: { level: coarse, first: skirtFirst, lights: skirtLights, row: 2 * t + 1, reach: this.#reach(skirt) } });
     }
     this.kernelOfZone = this.#texture("kernel of zone", this.zones, Math.max(1, 2 * count), this.#gl.R32I, table);
     return turns;
@@ -248,7 +248,7 @@ export class GatherPass {
     this.#copy(tile, blocks);
   }
 
-  #take({ core, skirt }, grid, into) {
+  #take({ isSeam, core, skirt }, grid, into) {
     const blocks = this.#lit(core);
     const coarse = skirt.lights ? this.grids[skirt.level] : null;
     let skirts = [into.sum, into.taken]; // anything: a scale of 0 leaves them out
@@ -259,7 +259,7 @@ export class GatherPass {
     }
     const [gathered, areas] = this.#gather(core, grid, blocks, "core");
     this.#use("TAKE", [into.next, into.nextTaken], { sums: into.sum, taken: into.taken, gathered, areas, skirts: skirts[0], skirt_areas: skirts[1] },
-      { skirt_scale: ["1f", coarse ? 1 / (1 << (coarse.level - grid.level)) : 0], is_opaque: ["1i", this.opaque] });
+      { skirt_scale: ["1f", coarse ? 1 / (1 << (coarse.level - grid.level)) : 0], is_opaque: ["1i", this.opaque], is_seam: ["1i", isSeam] });
     this.#drawBlocks(blocks);
     this.#copy(into, blocks);
     return blocks;

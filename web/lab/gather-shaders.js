@@ -86,13 +86,13 @@ vec4 between(sampler2D image, vec2 place) {
   return mix(mix(AT(0, 0), AT(1, 0), share.x), mix(AT(0, 1), AT(1, 1), share.x), share.y);
 }`;
 
-/** Each cell gives what arrives the lens area it takes, or the rest; the rest is stored as 1 - free. */
+/** Each cell gives what arrives the lens area it takes, or the rest. Stored: 1 - free, and what a seam (RingSizes::Turn) took of it. */
 const TAKE = {
   vertex: BLOCKS,
   fragment: `${HEAD}${BILINEAR}
 uniform sampler2D sums, taken, gathered, areas, skirts, skirt_areas;
 uniform float skirt_scale;
-uniform bool is_opaque;
+uniform bool is_opaque, is_seam;
 layout(location = 0) out vec4 sum;
 layout(location = 1) out vec4 full;
 void main() {
@@ -104,12 +104,19 @@ void main() {
     light += between(skirts, place);
     area += between(skirt_areas, place).xy;
   }
-  float free = 1.0 - texelFetch(taken, here, 0).x;
+  vec2 before = texelFetch(taken, here, 0).xy;
+  float free = 1.0 - before.x;
+  if (is_seam) {
+    float covered = min(area.x + area.y, 1.0), seam = min(covered * min(before.x / max(1.0 - covered, 1e-6), 1.0), free);
+    sum = texelFetch(sums, here, 0);
+    full = vec4(before.x + seam, seam, 0, 0);
+    return;
+  }
   bool covers = area.x > 1e-6;
   float takes = covers ? min(area.x + area.y, free) : 0.0, share = covers ? takes / area.x : free;
   if (is_opaque) light.a = area.x;
   sum = texelFetch(sums, here, 0) + share * light;
-  full = vec4(1.0 - (free - takes));
+  full = vec4(1.0 - (free - takes), before.y, 0, 0);
 }`,
 };
 
@@ -124,7 +131,8 @@ layout(location = 1) out vec4 full;
 void main() {
   ivec2 here = ivec2(gl_FragCoord.xy);
   vec2 place = (vec2(here) - 0.5) * scale + 0.5;
-  float area = between(cells_taken, place).x, free = 1.0 - texelFetch(taken, here, 0).x;
+  vec4 of_cells = between(cells_taken, place);
+  float area = of_cells.x - of_cells.y, free = 1.0 - texelFetch(taken, here, 0).x;
   bool covers = area > 1e-6;
   float takes = covers ? min(area, free) : 0.0, share = covers ? takes / area : free;
   sum = texelFetch(sums, here, 0) + share * between(cells, place);

@@ -69,6 +69,16 @@ inline void take_area(int n, const float* area, const float* covered, float* fre
     }
 }
 
+// Gives a seam (RingSizes::Turn) its part of the free area; taken: how much that is.
+inline void take_seam(int n, const float* area, float* free, float* taken) {
+    for (int x = 0; x < n; ++x) {
+        const float covered = std::min(area[x], 1.0f);
+        const float rest = std::max(1 - covered, laws::kLeastGathered);
+        taken[x] = std::min(covered * std::min((1 - free[x]) / rest, 1.0f), free[x]);
+        free[x] -= taken[x];
+    }
+}
+
 inline void add_scaled(int n, const float* scale, const float* light, float* sum) {
     for (int x = 0; x < n; ++x) sum[x] += scale[x] * light[x];
 }
@@ -99,6 +109,7 @@ struct Workspace {
     std::vector<float> weights;
     std::vector<int> zones;  // of a turn's arrivals, each once
     Planes window, gathered, of_zone, skirt;
+    Planes seam;  // the lens area that a group's seam took
     Combined cells, tile;
     Planes lines;                 // of a row of the tile, for a moment: what is combined, areas, scales
     std::vector<int> cell_of;     // of a tile's columns: the cell before the middle of each

@@ -32,11 +32,22 @@ public:
         Rect lit;
         if (!find_arrivals(group.begin, group.end, grid)) return lit;
         if (group.level > 0) into.reset(target.width(), target.height());
+        Rect seam;
         for (int turn = group.begin; turn < group.end; ++turn) {
+            is_seam_ = plan_.sizes.turns()[std::size_t(turn)].is_seam;
+            if (is_seam_ && (lit.empty() || !has_arrivals(turn + 1, group.end))) continue;
             gather_turn(turn, grid);
             if (reached_.empty()) continue;
-            lit = with(lit, reached_);
+            if (is_seam_)
+                seam = reached_;
+            else
+                lit = with(lit, reached_);
             take(into);
+        }
+        for (int y = seam.y0; y < seam.y1; ++y) {
+            const float* const taken = w_.seam.row(0, y);
+            float* const free = into.planes.row(Combined::kFree, y);
+            for (int x = seam.x0; x < seam.x1; ++x) free[x] += taken[x];
         }
         return lit;
     }
@@ -82,11 +93,16 @@ private:
             find_grid(level, engine::cells_of(grid.target, level - grid.level, GatherPlan::kTentBorder));
             find_in_cells(first_skirt, last_skirt, w_.grids[std::size_t(level)]);
         }
+        return has_arrivals(begin, end);
+    }
+
+    // True if turns begin…end-1, or their skirts, have light.
+    bool has_arrivals(int begin, int end) const {
         const auto any = [&](int first, int last) {
             return std::any_of(w_.arrivals.begin() + first, w_.arrivals.begin() + last,
                                [](const auto& arrivals) { return !arrivals.empty(); });
         };
-        return any(begin, end) || any(first_skirt, last_skirt);
+        return any(begin, end) || any(plan_.sizes.skirt_entry(begin), plan_.sizes.skirt_entry(end));
     }
 
     void arrive(int entry, int x, int y, const Grid& grid, Rgba colour, float covered, float beyond) {
@@ -343,16 +359,21 @@ private:
                 return engine::TapPlane{w_.window.row(k, from.y + y) + from.x,
                                         into.row(k, column.y0 + y) + column.x0};
             };
+            if (is_seam_) {
+                gather_two(job, plane(planes_ == kPlanes ? kBeyond : kBlue), 3, plane(kCovered), 3);
+                continue;
+            }
             gather_two(job, plane(kRed), 0, plane(kGreen), 1);
             gather_two(job, plane(kBlue), 2, plane(kCovered), 3);
             if (planes_ == kPlanes) gather_two(job, plane(kAlpha), 3, plane(kBeyond), 3);
         }
     }
 
-    // Each cell gives the turn's light the lens area that it arrives with, or the rest.
+    // Each cell gives the turn's light the lens area that it arrives with, or the rest. A seam's is noted.
     void take(Combined& into) {
         const int n = reached_.width();
         w_.lines.shape(2, n, 1);
+        if (is_seam_) w_.seam.shape(1, into.planes.width(), into.planes.height());
         float *areas = w_.lines.plane(0), *scale = w_.lines.plane(1);
         for (int y = reached_.y0; y < reached_.y1; ++y) {
             const auto gathered = [&](int k) { return w_.gathered.row(k, y) + reached_.x0; };
@@ -362,6 +383,10 @@ private:
                 const float* const beyond = gathered(kBeyond);
                 for (int x = 0; x < n; ++x) areas[x] = covered[x] + beyond[x];
                 area = areas;
+            }
+            if (is_seam_) {
+                take_seam(n, area, combined(Combined::kFree), w_.seam.row(0, y) + reached_.x0);
+                continue;
             }
             take_area(n, area, covered, combined(Combined::kFree), scale);
             for (int k = 0; k < 3; ++k) add_scaled(n, scale, gathered(k), combined(k));
@@ -375,6 +400,7 @@ private:
     Workspace& w_;
     Rect reached_;  // cells of the target that the turn's light reaches
     bool has_beyond_ = false;
+    bool is_seam_ = false;  // of the turn that is gathered: area alone
     int planes_ = kPlanes;  // that are gathered
 };
 

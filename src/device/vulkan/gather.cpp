@@ -181,13 +181,14 @@ private:
         }
         push.turns = here();
         for (int turn = 0; turn < int(plan_.sizes.turns().size()); ++turn) {
-            const auto [ring, hidden] = plan_.sizes.turns()[std::size_t(turn)];
+            const auto [ring, hidden, is_seam] = plan_.sizes.turns()[std::size_t(turn)];
             const int skirt = plan_.sizes.skirt_entry(turn);
             const bool has_skirt = has_light[std::size_t(skirt)];
-            if (hidden && !has_light[std::size_t(turn)] && !has_skirt) continue;
+            if ((hidden || is_seam) && !has_light[std::size_t(turn)] && !has_skirt) continue;
             add_entry(turn, ring, plan_.sizes.level(ring), words);
             add_entry(skirt, plan_.sizes.count() + ring, has_skirt ? plan_.sizes.skirt_level(ring) : 0,
                       words);
+            words.push_back(is_seam ? 1 : 0);
             ++push.turn_count;
         }
         const engine::OpenEdges& open = plan_.strip.window.open_edges;

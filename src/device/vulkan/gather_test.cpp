@@ -36,7 +36,7 @@ public:
         input_.samples.farthest_coc_px = 12, input_.services.progress = &progress_;
     }
     Picture by(Context& context) {
-        const engine::RingSizes sizes(0, 12, engine::ring_rule(Quality::Standard), input_.lens);
+        const engine::RingSizes sizes(0, 12, engine::ring_rule(Quality::Standard), input_.lens, true);
         const engine::RingKernels kernels(input_.lens, sizes);
         const engine::GatherPlan plan = engine::plan_gather(input_, colour_.rect(), 0, sizes, kernels);
         Memory memory(std::numeric_limits<std::size_t>::max());

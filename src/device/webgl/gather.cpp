@@ -74,7 +74,7 @@ int add_lights(const Lights& lights, int entry, int level, Words& words) {
     return begin;
 }
 
-// A turn: level, first light, lights; the same of its skirt; then by zone the kernel of both.
+// A turn: level, first light, lights; the same of its skirt; 1 for a seam; then by zone the kernel of both.
 void hand_over_turns(const GatherPlan& plan) {
     const Lights lights(plan);
     Words turns, words;
@@ -85,6 +85,7 @@ void hand_over_turns(const GatherPlan& plan) {
         const int level = plan.sizes.level(ring), coarse = plan.sizes.skirt_level(ring);
         turns.add_all(level, add_lights(lights, turn, level, words), count);
         turns.add_all(coarse, add_lights(lights, skirt, coarse, words), in_skirt);
+        turns.add_all(plan.sizes.turns()[std::size_t(turn)].is_seam ? 1 : 0);
         for (int zone = 0; zone < plan.zones.count(); ++zone)
             turns.add_all(plan.kernel(ring, zone, false), plan.kernel(ring, zone, true));
     }

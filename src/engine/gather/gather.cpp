@@ -69,9 +69,10 @@ Strips plan_strips(const EngineView& input, const RingSizes& sizes, const Bright
     return strips;
 }
 
+// The estimate puts nothing behind surfaces that are behind focus. So only given samples need seams.
 RingSizes ring_sizes(const EngineView& input) {
     return RingSizes(input.samples.nearest_coc_px, input.samples.farthest_coc_px,
-                     ring_rule(input.options.quality), input.lens);
+                     ring_rule(input.options.quality), input.lens, !input.samples.deep.empty());
 }
 
 class Gather {

@@ -70,8 +70,9 @@ RingRule ring_rule(Quality quality) {
     return {};
 }
 
-RingSizes::RingSizes(float nearest_px, float farthest_px, const RingRule& rule, const LensOnPicture& lens)
-    : rule_(rule) {
+RingSizes::RingSizes(float nearest_px, float farthest_px, const RingRule& rule, const LensOnPicture& lens,
+                     bool has_seams)
+    : rule_(rule), has_seams_(has_seams) {
     const auto level_of = [&](float r) {
         if (r <= rule.full_res_px) return 0;
         return std::max(1, int(std::ceil(std::log2(size_of(lens, r) / rule.largest_cells) - 1e-4f)));
@@ -119,9 +120,14 @@ RingSizes::RingSizes(float nearest_px, float farthest_px, const RingRule& rule, 
 
 void RingSizes::put_in_order() {
     turn_of_.resize(2 * std::size_t(count()));
+    seam_of_.assign(std::size_t(count()), -1);
     const auto put = [&](int ring, bool hidden) {
         turn_of_[std::size_t(2 * ring + (hidden ? 1 : 0))] = int(turns_.size());
         turns_.push_back({ring, hidden});
+    };
+    const auto put_seam = [&](int first) {
+        for_each_in_seam(first, [&](int ring) { seam_of_[std::size_t(ring)] = int(turns_.size()); });
+        turns_.push_back({.ring = first, .hidden = false, .is_seam = true});
     };
     const auto goes_on = [&](int ring, int beside) {
         return beside >= 0 && beside < count() && level(beside) == level(ring);
@@ -130,6 +136,8 @@ void RingSizes::put_in_order() {
         put(ring, false);
         if (goes_on(ring, ring - 1)) put(ring - 1, true);
         if (!goes_on(ring, ring + 1)) put(ring, true);
+        const int first = ring - kSeamRings + 1;
+        if (first > 0 && level(first) == level(ring) && has_seam(first)) put_seam(first);
     }
 }
 
@@ -151,6 +159,9 @@ RingSizes::Sizes RingSizes::light_of(int level) const {
                                                             : std::abs(radius_px(beside));
             sizes.above_px = std::min(sizes.above_px, r), sizes.below_px = std::max(sizes.below_px, r);
         }
+        if (has_seam(ring))
+            for_each_in_seam(
+                ring, [&](int finer) { sizes.above_px = std::min(sizes.above_px, radius_px(finer - 1)); });
     }
     return sizes;
 }

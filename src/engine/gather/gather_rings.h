@@ -34,7 +34,9 @@ RingRule ring_rule(Quality quality);
 // lies between two levels. Numbered from the nearest (most negative) to the farthest.
 class RingSizes {
 public:
-    RingSizes(float nearest_px, float farthest_px, const RingRule& rule, const LensOnPicture& lens);
+    // has_seams: levels behind focus have seams (Turn).
+    RingSizes(float nearest_px, float farthest_px, const RingRule& rule, const LensOnPicture& lens,
+              bool has_seams);
 
     const RingRule& rule() const { return rule_; }
     int count() const { return int(radii_px_.size()); }
@@ -68,9 +70,16 @@ public:
     // The order in which rings are gathered: from the nearest to the farthest; of one ring first what the
     // pinhole sees. What other things of its own pixel hide from it waits until the ring beyond has had its
     // turn, if that is of the same level: what is in front may be shared between the same two rings.
+    //
+    // Behind focus, a surface that continues past a change of level is in two groups of turns. The farther
+    // group would show what the surface's nearer part hides. So after its first rings it has a seam: the
+    // coverage P of the nearer group's last rings, by the kernel of `ring`. Where the first rings took an
+    // area T of the lens, a seam takes P * min(1, T / (1 - P)): all of P if the surface fills the lens, none
+    // of another surface's. It has no light, and the area is free again after the group.
     struct Turn {
         int ring;
         bool hidden;
+        bool is_seam = false;
     };
     std::span<const Turn> turns() const { return turns_; }
     int level_of_turn(int turn) const { return level(turns_[std::size_t(turn)].ring); }
@@ -98,9 +107,34 @@ public:
         give(to.inner, 1 - to.outer_share);
         give(to.outer, to.outer_share);
     }
+    // Calls emit(turn, share) for the seam that a source is a part of, if any; never of level 0.
+    template <typename Emit>
+    void hand_out_to_seam(float coc_px, const Emit& emit) const {
+        if (!has_seams_) return;
+        const Mix to = mix(coc_px);
+        const auto give = [&](int ring, float share) {
+            if (const int seam = seam_of_[std::size_t(ring)]; seam >= 0 && share > 0) emit(seam, share);
+        };
+        give(to.inner, 1 - to.outer_share);
+        give(to.outer, to.outer_share);
+    }
 
 private:
     void put_in_order();
+    // True if a coarser level begins with this ring, behind focus, and has a seam.
+    bool has_seam(int ring) const {
+        return has_seams_ && ring > 0 && radius_px(ring) > 0 && level(ring) > level(ring - 1);
+    }
+    // Calls visit(ring) for the rings whose light is in the seam of a level that begins with `first`.
+    template <typename Visit>
+    void for_each_in_seam(int first, const Visit& visit) const {
+        for (int ring = first - 1; ring >= std::max(0, first - kSeamRings); --ring)
+            if (radius_px(ring) > 0 && level(ring) == level(first - 1)) visit(ring);
+    }
+
+    // Rings on either side of a change of level that a seam compares. A disc of 6 px spans three radii 1.15
+    // apart on a floor that goes from one to the next within 4 px.
+    static constexpr int kSeamRings = 3;
 
     // Two radii between which light is shared, with the smaller one's c^2 and 1 / (outer^2 - inner^2). A disc
     // within its pixel is not blurred: no c^2 counts as less than that of such a disc.
@@ -110,9 +144,11 @@ private:
     };
     std::vector<float> radii_px_;
     RingRule rule_;
+    bool has_seams_;
     std::vector<int> levels_, skirt_levels_;
     std::vector<Turn> turns_;
     std::vector<int> turn_of_;         // visible and hidden, ring by ring
+    std::vector<int> seam_of_;         // the seam that a ring's light is part of; -1: of none
     std::vector<Interval> intervals_;  // [i]: up to radii_px_[i]; the last: beyond all
     // A lookup table, because millions of pixels ask: for each of many equal steps from the first radius to
     // the last, the first radius that is not below the start of the step.

@@ -36,7 +36,7 @@ public:
     }
     RingSizes sizes() const {
         return {input_.samples.nearest_coc_px, input_.samples.farthest_coc_px, ring_rule(Quality::Standard),
-                input_.lens};
+                input_.lens, true};
     }
     RingKernels kernels() const { return {input_.lens, sizes()}; }
     GatherPlan plan() {
@@ -176,6 +176,30 @@ TEST(GatherPlan, NoSourceIsSharedBetweenLevels) {
             EXPECT_TRUE(sizes.light_of(*levels.begin()).contains(coc_px)) << coc_px;
             EXPECT_NEAR(all, 1, 1e-6) << coc_px;
         }
+}
+
+// Radii are 40 px divided by 1.15 again and again. 24 px are 12 cells of 2 px, so cells change at the first
+// larger radius, 26.3 px. The last three finer rings have 26.3, 22.9 and 19.9 px; the next one has 17.3 px.
+TEST(GatherPlan, LightBehindFocusIsInTheSeamOfTheNextLevel) {
+    Planned shot;
+    shot.put({0, 0, 100, 100}, -40);
+    shot.put({500, 300, 600, 380}, 40);
+    const RingSizes sizes = shot.sizes();
+    const auto in_seam = [&](float coc_px) {
+        float share = 0;
+        sizes.hand_out_to_seam(coc_px, [&](int turn, float s) {
+            EXPECT_TRUE(sizes.turns()[std::size_t(turn)].is_seam);
+            EXPECT_TRUE(sizes.light_of(sizes.level_of_turn(turn)).contains(coc_px)) << coc_px;
+            if (sizes.level_of_turn(turn) == 2) share += s;
+        });
+        return share;
+    };
+    const float change_px = 40 / std::pow(1.15f, 3.0f);
+    EXPECT_NEAR(in_seam(0.99f * change_px), 1, 1e-6);
+    EXPECT_NEAR(in_seam(1.01f * change_px), 0, 1e-6);
+    EXPECT_NEAR(in_seam(change_px / 1.32f), 1, 1e-6);
+    EXPECT_NEAR(in_seam(change_px / 1.53f), 0, 1e-6);
+    EXPECT_EQ(in_seam(-0.99f * change_px), 0);
 }
 
 TEST(GatherPlan, RingsOfOneRadiusShareAKernelWhateverLiesBeside) {

@@ -20,8 +20,8 @@ layout(push_constant) uniform Push {
 // A tile: its rectangle. A level: cells across and down, the first column and row that are here and how many of a
 // row, where the first lights of its cells, the lights, and zones of columns and of rows that are here begin. A light: colour,
 // covered, beyond, turn. A turn: its number, place among the kernels of a zone and level, and how far its kernels
-// reach; then the same of its skirt, whose level is 0 where it has none. Places: kernels by zone and ring.
-const uint kTileWords = 4, kLevelWords = 9, kLightWords = 7, kTurnWords = 8, kEntryWords = 4, kNowhere = 0xffffffffu;
+// reach; then the same of its skirt, whose level is 0 where it has none; then 1 for a seam. Places: kernels by zone and ring.
+const uint kTileWords = 4, kLevelWords = 9, kLightWords = 7, kTurnWords = 9, kEntryWords = 4, kNowhere = 0xffffffffu;
 const int kChunk = kGroup;
 const uint kTile = kGatherTile, kAcross = kTile / kGroupSide, kGroupsOfTile = kAcross * kAcross;
 
@@ -132,6 +132,12 @@ void take(Sums ring, inout vec4 sum, inout float free) {
     free -= taken;
 }
 
+// The lens area that a seam (RingSizes::Turn) takes.
+float seam_of(float area, float free) {
+    const float covered = min(area, 1.0);
+    return min(covered * min((1 - free) / max(1 - covered, kLeastGathered), 1.0), free);
+}
+
 // The cells of a level that these pixels need, as GatherPlan::cells_of().
 Box cells_of(Box pixels, uint level) {
     return Box((pixels.low >> int(level)) - kGatherBorder, ((pixels.high - 1) >> int(level)) + 1 + kGatherBorder);
@@ -213,13 +219,19 @@ void main() {
         const uint count = uint(size.x * size.y);
         const vec2 middle = vec2(cells.low + ivec2(int(own) % size.x, int(own) / size.x)) + 0.5;
         vec4 cell_sum = vec4(0);
-        float cell_free = 1;
+        float cell_free = 1, seam = 0;
         for (; turn < last && words[turn + 2u] == number_of_level; turn += kTurnWords) {
             const Sums core = gathered_in(turn, cells);
             const Sums all = with_skirt(core, turn, box, middle * float(1 << int(number_of_level)));
-            if (own < count) take(all, cell_sum, cell_free);
+            if (own >= count) continue;
+            if (words[turn + 2u * kEntryWords] != 0u) {
+                seam = seam_of(all.area.x + all.area.y, cell_free);
+                cell_free -= seam;
+            } else {
+                take(all, cell_sum, cell_free);
+            }
         }
-        hit_colour[own] = cell_sum, hit_area[own] = vec2(cell_free, 0);
+        hit_colour[own] = cell_sum, hit_area[own] = vec2(cell_free + seam, 0);
         barrier();
         if (inside) {
             const vec2 place = (vec2(pixel) + 0.5) / float(1 << int(number_of_level)) - 0.5 - vec2(cells.low);
