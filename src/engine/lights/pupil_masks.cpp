@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 namespace petzval::engine {
 namespace {
@@ -33,6 +34,40 @@ std::uint64_t grid(unsigned columns, unsigned rows) {
     return spread * columns;
 }
 
+constexpr float kNoSurface = 1e30f;  // the radius of a pixel that hides nothing
+
+// The radius of the second opaque surface of a pixel, if something lies behind that.
+float second_surface(std::span<const CocSample> samples, float visible_px) {
+    for (std::size_t i = 0; i + 1 < samples.size(); ++i)
+        if (samples[i].colour.a >= laws::kOpaque && samples[i].coc_px - visible_px >= laws::kJumpPx)
+            return samples[i].coc_px;
+    return kNoSurface;
+}
+
+// Radii of second surfaces, and of the visible ones beside them, which may continue them. Empty: there are
+// none.
+Plane second_surfaces(const EngineView& input) {
+    const CocSamplesView& deep = input.samples.deep;
+    const View<const float> visible = input.samples.coc_px;
+    if (deep.empty()) return {};
+    Plane found(input.width(), input.height(), kNoSurface);
+    bool any = false;
+    for (int y = 0; y < input.height(); ++y)
+        for (int x = 0; x < input.width(); ++x) {
+            found(x, y) = second_surface(deep.at(x, y), visible(x, y));
+            any = any || found(x, y) < kNoSurface;
+        }
+    if (!any) return {};
+    Plane radii = found.clone();
+    for (int y = 0; y < input.height(); ++y)
+        for (int x = 0; x < input.width(); ++x) {
+            if (found(x, y) == kNoSurface) continue;
+            for (const auto& [u, v] : {std::pair{x - 1, y}, {x + 1, y}, {x, y - 1}, {x, y + 1}})
+                if (found.rect().contains(u, v) && found(u, v) == kNoSurface) radii(u, v) = visible(u, v);
+        }
+    return radii;
+}
+
 }  // namespace
 
 void PupilMasks::Node::include(const Node& other) {
@@ -47,8 +82,9 @@ int PupilMasks::bin(float coc_px) const {
 
 // Up to the middle between it and each of its neighbours on one surface, so that a surface has no cracks.
 PupilMasks::Node PupilMasks::pixel(int x, int y) const {
-    const View<const float> coc = in_.samples.coc_px;
+    const View<const float> coc = coc_px_;
     const float own = coc(x, y);
+    if (own == kNoSurface) return {own, own, false, 0};
     Node node{own, own, true, 0};
     const auto meet = [&](int u, int v) {
         if (u < 0 || v < 0 || u >= coc.width() || v >= coc.height()) return;
@@ -63,7 +99,12 @@ PupilMasks::Node PupilMasks::pixel(int x, int y) const {
     return node;
 }
 
-PupilMasks::PupilMasks(const EngineView& input) : in_(input) {
+PupilMasks::PupilMasks(const EngineView& input) : PupilMasks(input, input.samples.coc_px) {
+    second_px_ = second_surfaces(input);
+    if (second_px_.width() > 0) second_.reset(new PupilMasks(input, second_px_));
+}
+
+PupilMasks::PupilMasks(const EngineView& input, View<const float> coc_px) : in_(input), coc_px_(coc_px) {
     const float range = input.samples.farthest_coc_px - input.samples.nearest_coc_px;
     bins_per_px_ = range > 0 ? 64 / range : 0;
     for (int width = input.width(), height = input.height(); width > 1 || height > 1;) {
@@ -98,8 +139,8 @@ struct PupilMasks::Square {
 };
 
 PupilMasks::Behind PupilMasks::behind(const Light& light, int level, int x, int y, const Node& node) const {
-    const Rect pixels = Rect{x << level, y << level, (x + 1) << level, (y + 1) << level}.intersected(
-        in_.samples.coc_px.rect());
+    const Rect pixels =
+        Rect{x << level, y << level, (x + 1) << level, (y + 1) << level}.intersected(coc_px_.rect());
     const float per_row = 1 / float(in_.lens.pixel_aspect);
     Square square{float(pixels.x0) - light.x, (float(pixels.y0) - light.y) * per_row,
                   float(pixels.x1) - light.x, (float(pixels.y1) - light.y) * per_row};
@@ -162,19 +203,26 @@ void PupilMasks::hide_four(const Light& light, int level, const Rect& squares, s
 
 PupilMask PupilMasks::mask(float x, float y, float coc_px) const {
     PupilMask mask;
-    if (!laws::is_in_front(in_.samples.nearest_coc_px, coc_px, laws::kOwnPupilPx)) return mask;
-    const float reach =
-        (coc_px - in_.samples.nearest_coc_px) * kWidestPupil * std::max(1.0f, float(in_.lens.pixel_aspect));
+    const Light light{x, y, coc_px};
+    hide_all(light, mask.seen);
+    // Nothing lies behind a visible surface that is itself behind the light.
+    if (second_ && !mask.is_open() && !mask.is_closed()) second_->hide_all(light, mask.seen);
+    return mask;
+}
+
+void PupilMasks::hide_all(const Light& light, std::uint64_t& seen) const {
+    if (!laws::is_in_front(in_.samples.nearest_coc_px, light.coc_px, laws::kOwnPupilPx)) return;
+    const float reach = (light.coc_px - in_.samples.nearest_coc_px) * kWidestPupil *
+                        std::max(1.0f, float(in_.lens.pixel_aspect));
     // Squares so large that two by two hold all that is in reach.
     const int level = std::min(1 + int(std::log2(std::max(1.0f, 2 * reach))), top());
     const auto square = [&](float at, int pixels) {
         return int(std::clamp(std::floor(at), 0.0f, float(pixels - 1))) >> level;
     };
-    hide_four({x, y, coc_px}, level,
-              {square(x - reach, in_.width()), square(y - reach, in_.height()),
-               square(x + reach, in_.width()), square(y + reach, in_.height())},
-              mask.seen);
-    return mask;
+    hide_four(light, level,
+              {square(light.x - reach, in_.width()), square(light.y - reach, in_.height()),
+               square(light.x + reach, in_.width()), square(light.y + reach, in_.height())},
+              seen);
 }
 
 }  // namespace petzval::engine

@@ -11,13 +11,15 @@
 #include "engine/waist/engine.h"
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace petzval::engine {
 
 class PupilMasks {
 public:
-    // input outlives this.
+    // input outlives this. Of given samples, the second surface of each pixel hides lights too: a hair before
+    // a floor makes no hole in the floor.
     explicit PupilMasks(const EngineView& input);
     // (x, y) in pixels, centres at +0.5.
     PupilMask mask(float x, float y, float coc_px) const;
@@ -31,6 +33,8 @@ private:
             0;  // which of 64 equal steps from the picture's nearest to its farthest there are
         void include(const Node& other);
     };
+    PupilMasks(const EngineView& input, View<const float> coc_px);
+
     int bin(float coc_px) const;
     Node pixel(int x, int y) const;
     Node node(int level, int x, int y) const {
@@ -47,11 +51,16 @@ private:
         std::uint64_t all = 0, surely = 0;
     };
     Behind behind(const Light& light, int level, int x, int y, const Node& node) const;
+    // Takes what the surfaces hide from `seen`.
+    void hide_all(const Light& light, std::uint64_t& seen) const;
     // Takes what a square, or those of a level in a range (ends included, 2 x 2 at most), hides from `seen`.
     void hide(const Light& light, int level, int x, int y, std::uint64_t& seen) const;
     void hide_four(const Light& light, int level, const Rect& squares, std::uint64_t& seen) const;
 
     const EngineView& in_;
+    View<const float> coc_px_;
+    Plane second_px_;                           // of second surfaces; empty: there are none
+    std::unique_ptr<const PupilMasks> second_;  // their masks
     float bins_per_px_ = 0;
     std::vector<Image<Node>> levels_;  // [0]: squares of 2 pixels
 };

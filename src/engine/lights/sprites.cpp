@@ -113,12 +113,14 @@ device::Work draw_sprites(const EngineView& input, std::span<const Sprite> found
 }
 
 std::size_t sprites_bytes(const EngineView& input, std::size_t found) {
-    // Bytes of the quad-tree of occluders; bytes of each light: itself, its copy in a tile, its list entries.
-    constexpr std::size_t kBytesPerPixel = 8, kBytesPerPoint = 200;
+    // Bytes of the quad-tree of occluders, also of the second ones of given samples; bytes of each light:
+    // itself, its copy in a tile, its list entries.
+    constexpr std::size_t kBytesPerPixel = 8, kBytesPerPixelOfSecond = 12, kBytesPerPoint = 200;
     std::size_t count = found;
     for (const LightPoint& p : input.samples.points) count += AreaOfLight(p).count();
     if (count == 0) return 0;
-    return kBytesPerPoint * count + kBytesPerPixel * std::size_t(input.width()) * std::size_t(input.height());
+    const std::size_t per_pixel = kBytesPerPixel + (input.samples.deep.empty() ? 0 : kBytesPerPixelOfSecond);
+    return kBytesPerPoint * count + per_pixel * std::size_t(input.width()) * std::size_t(input.height());
 }
 
 }  // namespace petzval::engine
