@@ -269,7 +269,6 @@ vec4 back_at(ivec2 pixel, float radius, out float is_known) {
 // A silhouette pixel shows a part of the background (realtime_split.comp: own_radius). Where that lies far behind it, cells give
 // this part. It follows from the colours of the pixels around that show one surface only.
 void blur_background_in(ivec2 place) {
-    const float kBetween = 0.94;  // squared cosine of the angle between colours that differ from a third one in the same way
     const int own = place.y * kAcross + place.x;
     const float far_more = max(window_discs[own].x + kFarMorePx, kWholePx);
     vec4 behind = vec4(0);
@@ -283,22 +282,25 @@ void blur_background_in(ivec2 place) {
     if (count == 0) return;
     behind *= 1 / count;
     const ivec2 last = at.size - 1, pixel = 8 * ivec2(gl_WorkGroupID.xy) - kRim + place;  // as in the window: also beyond the picture
-    vec3 near = vec3(0);
+    vec4 near = vec4(0);
     count = 0;
     [[dont_unroll]] for (int y = -1; y <= 1; ++y)
         [[dont_unroll]] for (int x = -1; x <= 1; ++x) {
             const int there = own + y * kAcross + x;
             if (window_discs[there].x >= far_more || has_mark(radius_at(clamp(pixel + ivec2(x, y), ivec2(0), last)))) continue;
-            near += window[there].rgb;
+            near += window[there];
             count += 1;
         }
     if (count == 0) return;
-    const vec3 light = (window[own] - behind).rgb, apart = near / count - behind.rgb;
-    const float along = dot(light, apart), most = dot(apart, apart);
-    if (along <= 0 || along >= most || along * along < kBetween * most * dot(light, light)) return;
+    const vec4 light = window[own], apart = near * (1 / count) - behind;
+    const float along = dot((light - behind).rgb, apart.rgb), most = dot(apart.rgb, apart.rgb);
+    if (along >= most) return;
+    // A pixel that no near colour explains has the background's depth and shows the background alone.
+    const float share = max(along / most, 0.0);
     float is_known;
     const vec4 blurred = back_at(clamp(pixel, ivec2(0), last), kAnyPx, is_known);
-    window[own] = max(window[own] + is_known * (1 - along / most) * (blurred - behind), vec4(0));
+    // Light off the line between both colours is divided like the rest, or the background's part of it would stay sharp.
+    if (is_known > 0) window[own] = max(share * light + (1 - share) * (blurred + share * apart), vec4(0));
 }
 // All invocations of the group call it together, each for the pixels that it has read.
 void blur_backgrounds(uint silhouettes) {
@@ -352,10 +354,11 @@ void main() {
     const vec4 reaches = reach[tile.y * at.tiles.x + tile.x];
     const int quarter = int(2u * (gl_WorkGroupID.y & 1u) + (gl_WorkGroupID.x & 1u));
     const bool has_near = reaches.z > 2, is_fine = (uint(reaches.y) >> ((has_near ? 4 : 0) + quarter) & 1u) != 0u;
-    const int own = (int(gl_LocalInvocationID.y) + kRim) * kAcross + int(gl_LocalInvocationID.x) + kRim;
+    int own = 0;  // the pixel in the window
     Fine fine = Fine(vec4(0), vec4(0), 0, 0, 0);
     float back_px = 0;
     if (is_fine) {
+        own = (int(gl_LocalInvocationID.y) + kRim) * kAcross + int(gl_LocalInvocationID.x) + kRim;
         const uint silhouettes = read_window();
         barrier();
         back_px = uintBitsToFloat(widest_px[0]);
