@@ -14,12 +14,11 @@
 namespace petzval::engine {
 namespace {
 
-constexpr float kDark = 1e-3f;  // keeps reciprocals finite; far below anything that is compared with it
 constexpr int kNarrowReach = 1, kWideReach = 3;  // cells on either side: 12 and 28 pixels
 
-// Mean of 1 / (luminance + kDark) over cells of `size` pixels. Its reciprocal, the harmonic mean, follows
+// Mean of 1 / (luminance + black) over cells of `size` pixels. Its reciprocal, the harmonic mean, follows
 // what most of the cell shows and hardly moves for a few bright pixels.
-Plane reciprocal_cells(View<const Rgba> picture, int size, Workers& workers) {
+Plane reciprocal_cells(View<const Rgba> picture, int size, float black, Workers& workers) {
     Plane cells((picture.width() + size - 1) / size, (picture.height() + size - 1) / size);
     parallel_for(cells.height(), workers, [&](int cy) {
         for (int cx = 0; cx < cells.width(); ++cx) {
@@ -28,7 +27,7 @@ Plane reciprocal_cells(View<const Rgba> picture, int size, Workers& workers) {
             float sum = 0;
             for (int y = r.y0; y < r.y1; ++y)
                 for (int x = r.x0; x < r.x1; ++x)
-                    sum += 1 / (std::max(0.0f, luminance(picture(x, y))) + kDark);
+                    sum += 1 / (std::max(0.0f, luminance(picture(x, y))) + black);
             cells(cx, cy) = sum / float(r.width() * r.height());
         }
     });
@@ -64,16 +63,17 @@ HighlightSplit::HighlightSplit(const EngineView& input, const HighlightRule& rul
     Workers& workers = *input.services.workers;
     if (rule.contested_floor < rule.least_floor || rule.floor_at_1px > 0)
         find_contested(input.samples.coc_px, workers);
-    const Plane reciprocal = reciprocal_cells(input.samples.judged(), kCell, workers);
+    white_ = white_of(input.all().samples.judged(), workers);
+    const float black = black_of(white_);
+    const Plane reciprocal = reciprocal_cells(input.samples.judged(), kCell, black, workers);
     surroundings_ = Plane(reciprocal.width(), reciprocal.height());
     parallel_for(reciprocal.height(), workers, [&](int y) {
         for (int x = 0; x < reciprocal.width(); ++x) {
             const float narrow = 1 / box_mean(reciprocal, x, y, kNarrowReach);
             const float wide = 1 / box_mean(reciprocal, x, y, kWideReach);
-            surroundings_(x, y) = std::max(0.0f, std::min(narrow, 2 * wide) - kDark);
+            surroundings_(x, y) = std::max(0.0f, std::min(narrow, 2 * wide) - black);
         }
     });
-    white_ = white_of(input.all().samples.judged(), workers);
 }
 
 // A surface at radius n, d pixels away, stands in the way of radius c if c - n > d: c > min(n + d) over all

@@ -10,6 +10,7 @@
 #include "engine/samples/dim.h"
 #include "engine/samples/silhouettes/two_surfaces.h"
 #include "engine/samples/sparse_rows.h"
+#include "engine/samples/white.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +26,8 @@ struct LitPicture {
     View<const Rgba> colour;
     Dim dim_of;  // the picture without lamps; empty if it has no lamps
     Rgba dim(int x, int y) const { return dim_of ? dim_of(x, y, colour(x, y)) : colour(x, y); }
+    // Luminance that counts as black; keeps reciprocals finite.
+    float black() const { return black_of(dim_of.white); }
 };
 
 // A pixel of a silhouette, separated into two surfaces. The renderer filtered the pixel's colour over its
@@ -47,8 +50,10 @@ struct Mixture {
     Rgba near_clean;
     float near_variance = 0, share_by_shape = 0;
 
-    // Errors of shape and model relative to those at a plain edge; larger at strands and beside lamps.
-    float errors() const { return thin || lit ? completion_model.strand_errors : 1; }
+    // Errors of shape and model; larger at strands and beside lamps.
+    ModelErrors errors(const LitPicture& picture) const {
+        return {thin || lit ? completion_model.strand_errors : 1, picture.dim_of.white};
+    }
     // Separates the colour c, without lamps, of a pixel that shows the farther surface.
     void take_apart(Rgba c, float near_covers, Rgba behind) {
         near_share = near_covers;

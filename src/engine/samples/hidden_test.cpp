@@ -13,6 +13,8 @@
 namespace petzval::engine {
 namespace {
 
+const Dim kNoLamps{{}, 0, 1};
+
 constexpr int kWidth = 48, kHeight = 48;
 constexpr float kNearPx = -8, kFarPx = 1;
 
@@ -50,7 +52,7 @@ Drawn behind_wire(const Paint& behind, const Paint& wire, float width_px, float 
             d.coc(x, y) = middle >= left && middle < right ? kNearPx : far_px;
         }
     const Image<unsigned char> connected = connections(d.coc, one_thread());
-    const LitPicture picture{d.colour, {}};
+    const LitPicture picture{d.colour, kNoLamps};
     d.mixtures = unmix_silhouettes(picture, d.coc, connected, one_thread(), unmix);
     d.hidden = fill_hidden(picture, d.coc, connected, d.mixtures, kNearPx, far_px, fill, one_thread());
     unmix_nearer(d.mixtures, picture, d.hidden, one_thread());
@@ -98,7 +100,7 @@ TEST(Hidden, PixelsShareGuessesWhateverTheLastDigitsOfColoursAre) {
                 coc(x, y) = ball ? kBallPx : kFarPx;
             }
         const Image<unsigned char> connected = connections(coc, one_thread());
-        const LitPicture picture{colour, {}};
+        const LitPicture picture{colour, kNoLamps};
         const Mixtures mixtures = unmix_silhouettes(picture, coc, connected, one_thread());
         FillRule plain;
         plain.textures = false;
@@ -125,7 +127,7 @@ TEST(Hidden, ASliverKeepsItsColourBesideAThirdSurface) {
             coc(x, y) = post > 0.5f ? kNearPx : x < 22 ? kBoxPx : kWallPx;
         }
     const Image<unsigned char> connected = connections(coc, one_thread());
-    const Mixtures mixtures = unmix_silhouettes({colour, {}}, coc, connected, one_thread());
+    const Mixtures mixtures = unmix_silhouettes({colour, kNoLamps}, coc, connected, one_thread());
     const Mixture* m = mixtures.at(20, kHeight / 2);
     ASSERT_TRUE(m);
     EXPECT_TRUE(m->shows_far);
@@ -144,7 +146,7 @@ TEST(Hidden, AHairOnACoatHasTheCoatBehindIt) {
             coc(x, y) = y < kFloor ? kFloorPx : x == kHair ? kHairPx : kCoatPx;
         }
     const Image<unsigned char> connected = connections(coc, one_thread());
-    const LitPicture picture{colour, {}};
+    const LitPicture picture{colour, kNoLamps};
     const Mixtures mixtures = unmix_silhouettes(picture, coc, connected, one_thread());
     const HiddenLayers hidden =
         fill_hidden(picture, coc, connected, mixtures, kHairPx, kFloorPx, {}, one_thread());
@@ -168,7 +170,7 @@ TEST(Hidden, AHairOnACoatNeedsNoOtherSilhouette) {
         for (int x = 0; x < kWidth; ++x)
             colour(x, y) = grey(x == kHair ? 0.01f : 0.02f), coc(x, y) = x == kHair ? kHairPx : kCoatPx;
     const Image<unsigned char> connected = connections(coc, one_thread());
-    const LitPicture picture{colour, {}};
+    const LitPicture picture{colour, kNoLamps};
     const Mixtures mixtures = unmix_silhouettes(picture, coc, connected, one_thread());
     const HiddenLayers hidden =
         fill_hidden(picture, coc, connected, mixtures, kHairPx, kCoatPx, {}, one_thread());
@@ -191,7 +193,7 @@ TEST(Hidden, ASlopingFloorLeavesRoomForTheBoxBesideIt) {
             coc(x, y) = x < kPost ? kBoxPx : x < kFloor ? kPostPx : kFarthestPx - 0.14f * float(y);
         }
     const Image<unsigned char> connected = connections(coc, one_thread());
-    const LitPicture picture{colour, {}};
+    const LitPicture picture{colour, kNoLamps};
     const Mixtures mixtures = unmix_silhouettes(picture, coc, connected, one_thread());
     const HiddenLayers hidden =
         fill_hidden(picture, coc, connected, mixtures, kPostPx, kFarthestPx, {}, one_thread());

@@ -41,7 +41,7 @@ Patch patch_at(const KnownSurfaces& known, const Found& hit, Direction d) {
 float likeness(const KnownSurfaces& known, const Found& a, Direction to_a, const Found& b, Direction to_b) {
     const Patch at_a = patch_at(known, a, to_a), at_b = patch_at(known, b, to_b);
     const CompletionModel& model = completion_model;
-    float difference = 0, level = 1e-6f;  // two black patches are alike
+    float difference = 0, level = 1e-16f;  // two black patches are alike
     for (std::size_t k = 0; k < kPatch; ++k) {
         difference += square(at_a[k] - at_b[k]);
         level += square(0.5f * (at_a[k] + at_b[k]));

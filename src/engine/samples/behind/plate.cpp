@@ -99,8 +99,8 @@ void unmix_before_plate(Mixtures& mixtures, const LitPicture& picture, View<cons
             }
             const Rgba c = picture.dim(x, y), behind = back.dim(x, y);
             if (front.touch(x, y, m.near_coc_px))
-                m.near_share =
-                    share_before(c, front.colour(x, y, m.near_coc_px), behind, m.share_by_shape, m.errors());
+                m.near_share = share_before(c, front.colour(x, y, m.near_coc_px), behind, m.share_by_shape,
+                                            m.errors(picture));
             else
                 m.near_share = 0, m.lights_near = false;  // both surfaces are part of the plate
             m.near_colour = light_only(c - (1 - m.near_share) * behind);

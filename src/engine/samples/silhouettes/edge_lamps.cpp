@@ -20,7 +20,7 @@ struct LitPixel {
 
 // Likeness of two lights in colour, 0…1: red and white are hardly alike.
 float alike(Rgba a, Rgba b) {
-    const float cosine2 = dot(a, b) * dot(a, b) / std::max(1e-12f, dot(a, a) * dot(b, b));
+    const float cosine2 = dot(a, b) * dot(a, b) / std::max(1e-20f, dot(a, a) * dot(b, b));
     return cosine2 * cosine2 * cosine2 * cosine2;
 }
 
@@ -74,7 +74,7 @@ LampsBehind find_lamps(const LitPicture& picture, View<const float> coc, View<co
     const int reach = int(completion_model.thin_within_px);
     const Rect window = Rect{x - reach, y - reach, x + reach + 1, y + reach + 1}.intersected(coc.rect());
     Rgba own = picture.colour(x, y) - picture.dim(x, y);
-    if (own == Rgba{}) own = picture.colour(x, y);
+    if (own == Rgba{}) own = picture.colour(x, y), own.a = 0;
     float near = 0, far = 0;
     std::vector<LitPixel> nearer;
     for (int v = window.y0; v < window.y1; ++v)
@@ -96,7 +96,7 @@ LampsBehind find_lamps(const LitPicture& picture, View<const float> coc, View<co
     far = std::max(far, completion_model.unseen_lamp * (1 - sure) * near);
     near *= sure;
     const float side = completion_model.lamp_side;
-    const float t = std::clamp((far / std::max(1e-9f, near + far) - side) / (1 - 2 * side), 0.0f, 1.0f);
+    const float t = std::clamp((far / std::max(1e-20f, near + far) - side) / (1 - 2 * side), 0.0f, 1.0f);
     return {t * t * (3 - 2 * t), far_coc};
 }
 

@@ -14,8 +14,7 @@ Sides look_around(const LitPicture& picture, View<const float> coc, View<const f
     Sides s;
     const int reach = rule.clean_within_px;
     const Rect window = Rect{x - reach, y - reach, x + reach + 1, y + reach + 1}.intersected(coc.rect());
-    constexpr float kDark = 1e-3f;  // keeps reciprocals finite
-    const float own_light = std::max(0.0f, luminance(picture.dim(x, y))) + kDark;
+    const float own_light = std::max(0.0f, luminance(picture.dim(x, y))) + picture.black();
     const float third = third_surface_px(coc(x, y), threshold);
     for (int v = window.y0; v < window.y1; ++v)
         for (int u = window.x0; u < window.x1; ++u) {
@@ -50,7 +49,7 @@ Guess least_like(Rgba far_colour, const LitPicture& picture, View<const float> c
             if (coc(u, v) > threshold) continue;
             const Rgba colour = picture.dim(u, v);
             ((touching(u, v) & kLit) != 0 ? lit : unlit)
-                .add(colour, distance2(comparable(colour), far_colour) + 1e-9f);
+                .add(colour, distance2(comparable(colour), far_colour) + 1e-16f);
         }
     return (unlit.empty() ? lit : unlit).guess();
 }

@@ -27,7 +27,7 @@ public:
     void separate(int x, int y, Mixture& m) const {
         const Guess near{colours_.at(x, y, m), m.near_variance}, far = behind(x, y, m, near.colour);
         const Rgba c = picture_.dim(x, y);
-        const Explained e = expected(comparable(c), near, far, m.share_by_shape, m.errors());
+        const Explained e = expected(comparable(c), near, far, m.share_by_shape, m.errors(picture_));
         m.near_clean = near.colour;
         m.shows_far = m.shows_far || e.near_share < completion_model.covers;
         m.far_colour = far.colour;
@@ -57,8 +57,7 @@ private:
     // its part was taken out, and less if the error of that part exceeds the surface's own variance. Gaps
     // count where no other pixel shows the surface.
     Guess behind(int x, int y, const Mixture& m, Rgba near) const {
-        constexpr float kDark = 1e-3f;  // keeps reciprocals finite
-        const float own_light = std::max(0.0f, luminance(picture_.dim(x, y))) + kDark;
+        const float own_light = std::max(0.0f, luminance(picture_.dim(x, y))) + picture_.black();
         const float threshold = strand_threshold_px(m), third = third_surface_px(coc_(x, y), threshold);
         const Rect window =
             Rect{x - reach_px_, y - reach_px_, x + reach_px_ + 1, y + reach_px_ + 1}.intersected(coc_.rect());
@@ -77,8 +76,8 @@ private:
                 shown[count++] = {c, at, near_by, weight, at && is_gap(u, v, threshold)};
             }
         const Guess first = (clean.empty() ? mixed : clean).guess();
-        const float own = first.variance + least_variance(first.colour, m.errors());
-        const float off = m.errors() * completion_model.shape_error;
+        const float own = first.variance + least_variance(first.colour, m.errors(picture_));
+        const float off = m.errors(picture_).times * completion_model.shape_error;
         const float error = off * off * distance2(near, first.colour) / 3;
         for (const Shown& s : std::span(shown).first(count)) {
             if (!s.at) {

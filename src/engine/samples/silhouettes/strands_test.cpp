@@ -10,6 +10,8 @@
 namespace petzval::engine {
 namespace {
 
+const Dim kNoLamps{{}, 0, 1};
+
 constexpr int kSize = 64;
 const Rgba kHair{0.15f, 0.08f, 0.04f, 1};
 
@@ -34,7 +36,8 @@ struct Hair {
                 }
                 colour(x, y) = covered(x, y) * kHair + (1 - covered(x, y)) * stripes(y);
             }
-        mixtures = unmix_silhouettes({colour, {}}, coc_px, connections(coc_px, one_thread()), one_thread());
+        mixtures =
+            unmix_silhouettes({colour, kNoLamps}, coc_px, connections(coc_px, one_thread()), one_thread());
     }
     template <typename Visit>
     void for_each(const Visit& visit) const {
@@ -140,7 +143,7 @@ TEST(Strands, LeaveTheWallItsColourInANarrowGap) {
             if (i != 2) coc_px(kGap - 2 + i, y) = 0;
         }
     const Mixtures mixtures =
-        unmix_silhouettes({colour, {}}, coc_px, connections(coc_px, one_thread()), one_thread());
+        unmix_silhouettes({colour, kNoLamps}, coc_px, connections(coc_px, one_thread()), one_thread());
     const Mixture* const gap = mixtures.at(kGap, kSize / 2);
     ASSERT_NE(gap, nullptr);
     EXPECT_NEAR(gap->far_colour.g, wall.g, 0.05f);

@@ -7,23 +7,24 @@
 namespace petzval::engine {
 namespace {
 
-constexpr float kTiny = 1e-12f;    // keeps quotients finite
+constexpr float kTiny = 1e-16f;    // keeps quotients finite
 constexpr float kLeastFar = 0.1f;  // a farther surface that covers less of a pixel gains no more light
 
 }  // namespace
 
-float least_variance(Rgba c, float errors) {
-    return 1e-6f + errors * errors * completion_model.model_error2 * dot(c, c);
+float least_variance(Rgba c, ModelErrors errors) {
+    const float white = std::min(errors.white, kMostLight), squared = light2(c) + white * white;
+    return kTiny + errors.times * errors.times * completion_model.model_error2 * squared;
 }
 
-Explained expected(Rgba c, const Guess& near, const Guess& far, float by_shape, float errors,
+Explained expected(Rgba c, const Guess& near, const Guess& far, float by_shape, ModelErrors errors,
                    float far_gains) {
     constexpr std::size_t kShares = 11;
     const float least = least_variance(c, errors);
     std::array<float, kShares> unlikely, variance;  // -2 log of the likelihood, but for the variance
     for (std::size_t i = 0; i < kShares; ++i) {
         const float s = float(i) / (kShares - 1),
-                    off = (s - by_shape) / (errors * completion_model.shape_error);
+                    off = (s - by_shape) / (errors.times * completion_model.shape_error);
         variance[i] = s * s * near.variance + (1 - s) * (1 - s) * far.variance + least;
         unlikely[i] = distance2(c, s * near.colour + (1 - s) * far.colour) / variance[i] + off * off;
     }
@@ -44,11 +45,11 @@ float unexplained(Rgba c, Rgba near, Rgba far) {
     constexpr float kNone = 0.1f, kAll = 0.5f;  // of the squared light
     const Rgba across = near - far;
     const float along = std::clamp(dot(c - far, across) / std::max(kTiny, dot(across, across)), 0.0f, 1.0f);
-    const float apart = distance2(c, far + along * across) / std::max(kTiny, dot(c, c) - c.a * c.a);
+    const float apart = distance2(c, far + along * across) / std::max(kTiny, light2(c));
     return std::clamp((apart - kNone) / (kAll - kNone), 0.0f, 1.0f);
 }
 
-float share_before(Rgba c, const Guess& near, Rgba behind, float by_shape, float errors) {
+float share_before(Rgba c, const Guess& near, Rgba behind, float by_shape, ModelErrors errors) {
     float share = expected(comparable(c), near, {comparable(behind), 0}, by_shape, errors).near_share;
     const auto at_most = [&](float own, float from_behind) {
         if ((1 - share) * from_behind > own) share = 1 - std::max(0.0f, own) / from_behind;

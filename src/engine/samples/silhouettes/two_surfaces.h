@@ -9,8 +9,9 @@
 namespace petzval::engine {
 
 // Light for comparisons, limited so that its squares stay finite.
+constexpr float kMostLight = 1e8f;
 inline Rgba comparable(Rgba c) {
-    constexpr float kMost = 1e8f;
+    constexpr float kMost = kMostLight;
     return {std::clamp(c.r, -kMost, kMost), std::clamp(c.g, -kMost, kMost), std::clamp(c.b, -kMost, kMost),
             c.a};
 }
@@ -19,6 +20,7 @@ inline float distance2(Rgba a, Rgba b) {
     const Rgba d = a - b;
     return d.r * d.r + d.g * d.g + d.b * d.b + d.a * d.a;
 }
+inline float light2(Rgba c) { return c.r * c.r + c.g * c.g + c.b * c.b; }  // squared, without alpha
 inline float dot(Rgba a, Rgba b) { return a.r * b.r + a.g * b.g + a.b * b.b + a.a * b.a; }
 
 // A colour and its variance, the mean of the channels' variances.
@@ -32,12 +34,12 @@ class Pool {
 public:
     void add(Rgba light, float weight) {
         const Rgba c = comparable(light);
-        sum_ += weight * c, squares_ += weight * (c.r * c.r + c.g * c.g + c.b * c.b), weight_ += weight;
+        sum_ += weight * c, squares_ += weight * light2(c), weight_ += weight;
     }
     bool empty() const { return weight_ <= 0; }
     Guess guess() const {
         const Rgba m = sum_ * (1 / weight_);
-        const float spread = squares_ / weight_ - (m.r * m.r + m.g * m.g + m.b * m.b);
+        const float spread = squares_ / weight_ - light2(m);
         return {m, std::max(0.0f, spread) / 3};
     }
 
@@ -56,13 +58,20 @@ struct Explained {
     Rgba far_colour;
 };
 
-// Variance of a colour that counts as exact. errors: Mixture::errors().
-float least_variance(Rgba c, float errors);
+// Errors of the model that two colours and the silhouette's shape explain a pixel, as multiples of those at a
+// plain edge. In dark pixels they are relative to white, so that they do not depend on the exposure.
+struct ModelErrors {
+    float times = 1;
+    float white = 0;  // scene-linear luminance
+};
+
+// Variance of a colour that counts as exact.
+float least_variance(Rgba c, ModelErrors errors);
 
 // The mean of all coverages that explain the pixel's colour c, weighted by their likelihood for c and their
 // agreement with the shape. The unexplained rest belongs to the less certain surface. far_gains: the farther
-// surface's share of light that neither variance explains; 0: the nearer one gets it. errors: as above.
-Explained expected(Rgba c, const Guess& near, const Guess& far, float by_shape, float errors,
+// surface's share of light that neither variance explains; 0: the nearer one gets it.
+Explained expected(Rgba c, const Guess& near, const Guess& far, float by_shape, ModelErrors errors,
                    float far_gains = 0);
 
 // 0…1: the share of colour c that no mixture of the two explains.
@@ -70,6 +79,6 @@ float unexplained(Rgba c, Rgba near, Rgba far);
 
 // The nearer surface's coverage of a pixel of colour c in front of a known background. The background cannot
 // contribute more light than it has.
-float share_before(Rgba c, const Guess& near, Rgba behind, float by_shape, float errors);
+float share_before(Rgba c, const Guess& near, Rgba behind, float by_shape, ModelErrors errors);
 
 }  // namespace petzval::engine

@@ -30,7 +30,7 @@ float own_detail(Rgba c, const Guess& near, const Guess& far, const Sides& s) {
     if (s.near_clean.empty()) return 0;
     // A pixel of the nearer surface that is twice as bright may shine into this one: renderers filter colour,
     // not depth.
-    const float spills = std::clamp(s.near_brightest / std::max(1e-6f, luminance(c)) - 1, 0.0f, 1.0f);
+    const float spills = std::clamp(s.near_brightest / std::max(1e-20f, luminance(c)) - 1, 0.0f, 1.0f);
     return (1 - spills) * unexplained(c, near.colour, far.colour);
 }
 
@@ -68,7 +68,7 @@ Mixture taken_apart(const LitPicture& picture, View<const float> coc, View<const
     }
     if (!m.shows_far) return m;
     const auto explained = [&](float far_gains) {
-        return expected(comparable(c), near, far, s.near_share_by_shape, m.errors(), far_gains);
+        return expected(comparable(c), near, far, s.near_share_by_shape, m.errors(picture), far_gains);
     };
     Explained e = explained(0);
     if (const float gains = own_detail(comparable(c), near, far, s); gains > 0)
@@ -118,7 +118,7 @@ void unmix_nearer(Mixtures& mixtures, const LitPicture& picture, const HiddenLay
             if (const auto behind = hidden.at(x, y); !behind.empty()) m.far_colour = composited(behind);
             const Rgba dim = picture.dim(x, y);
             m.near_share = share_before(dim, {m.near_clean, m.near_variance}, m.far_colour, m.share_by_shape,
-                                        m.errors());
+                                        m.errors(picture));
             m.near_colour = light_only(dim - (1 - m.near_share) * m.far_colour);
             const Rgba lamps = colour(x, y) - dim, lamps_before = lamps - m.far_light;
             give_to_lamps(m);

@@ -69,7 +69,7 @@ float HiddenTextures::detail(int x, int y) const {
         known_.colour(x, y) + known_.colour(x + 1, y) + known_.colour(x, y + 1) + known_.colour(x + 1, y + 1);
     const float light = std::max(0.0f, 0.25f * luminance(comparable(sum)));
     const float around = std::max(0.0f, luminance(comparable(mean(float(x) + 0.5f, float(y) + 0.5f))));
-    return (light - around) / (light + around + 1e-6f);
+    return (light - around) / (light + around + 1e-20f);
 }
 
 Texture HiddenTextures::texture_around(const Tile& tile) const {
