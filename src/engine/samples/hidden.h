@@ -45,10 +45,11 @@ struct Mixture {
     float near_coc_px = 0, far_coc_px = 0, lamp_coc_px = 0;
     // 0…1: fraction of the pixel's lamp light that comes from lamps behind the nearer surface.
     float lamps_behind = 0;
-    // The nearer surface's colour where it fills pixels, the variance of that colour (mean of the channels),
-    // and the coverage that the silhouette's shape suggests.
-    Rgba near_clean;
-    float near_variance = 0, share_by_shape = 0;
+    // The nearer surface's colour where it fills pixels, and the most light of the farther one there. Then
+    // the variances of both colours (mean of the channels), and the coverage that the silhouette's shape
+    // suggests.
+    Rgba near_clean, far_most;
+    float near_variance = 0, far_variance = 0, share_by_shape = 0;
 
     // Errors of shape and model; larger at strands and beside lamps.
     ModelErrors errors(const LitPicture& picture) const {
@@ -110,6 +111,15 @@ struct HiddenLayers {
         if (!range) return {};
         return {bands[std::size_t(y / kBand)].data() + range->begin, range->count};
     }
+    // The samples of this pixel alone: copies, if others share them. Not for two pixels of a band at a time.
+    std::span<Hidden> own(int x, int y) {
+        Range& range = *ranges.at(x, y);
+        std::vector<Hidden>& band = bands[std::size_t(y / kBand)];
+        const std::size_t begin = range.begin;
+        range.begin = band.size() & ((1U << 30) - 1);
+        for (std::size_t i = begin; i < begin + range.count; ++i) band.push_back(Hidden(band[i]));
+        return at(x, y);
+    }
     std::span<Hidden> at(int x, int y) {
         const Range* const range = ranges.at(x, y);
         if (!range) return {};
@@ -117,9 +127,9 @@ struct HiddenLayers {
     }
 };
 
-// Separates silhouette pixels that show the nearer surface from the hidden surfaces behind them.
-void unmix_nearer(Mixtures& mixtures, const LitPicture& picture, const HiddenLayers& hidden,
-                  Workers& workers);
+// Separates silhouette pixels that show the nearer surface from the hidden surfaces behind them. Light that
+// neither colour explains belongs to the surface whose colour varies more; `hidden` gets its part of that.
+void unmix_nearer(Mixtures& mixtures, const LitPicture& picture, HiddenLayers& hidden, Workers& workers);
 
 // Extent of the search for hidden surfaces. Pixels of a square share the surfaces found for one of them if
 // the blur radius of these surfaces is at least shared_from_px. The square is 2 x 2 pixels, 4 x 4 at twice

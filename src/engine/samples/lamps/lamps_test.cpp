@@ -41,7 +41,7 @@ CutLamp cut_lamp(float centre_x, int edge) {
                              }}};
     const Image<unsigned char> connected = connections(coc, one_thread());
     auto mixtures = unmix_silhouettes(picture, coc, connected, one_thread());
-    const auto hidden = fill_hidden(picture, coc, connected, mixtures, kNearPx, kFarPx, {}, one_thread());
+    auto hidden = fill_hidden(picture, coc, connected, mixtures, kNearPx, kFarPx, {}, one_thread());
     unmix_nearer(mixtures, picture, hidden, one_thread());
     const HiddenLamps lamps = lamps_behind(picture, coc, mixtures, one_thread());
     CutLamp found;

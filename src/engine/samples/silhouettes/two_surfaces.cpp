@@ -49,13 +49,17 @@ float unexplained(Rgba c, Rgba near, Rgba far) {
     return std::clamp((apart - kNone) / (kAll - kNone), 0.0f, 1.0f);
 }
 
-float share_before(Rgba c, const Guess& near, Rgba behind, float by_shape, ModelErrors errors) {
-    float share = expected(comparable(c), near, {comparable(behind), 0}, by_shape, errors).near_share;
+float least_share_before(Rgba c, float near_share, Rgba behind) {
     const auto at_most = [&](float own, float from_behind) {
-        if ((1 - share) * from_behind > own) share = 1 - std::max(0.0f, own) / from_behind;
+        if ((1 - near_share) * from_behind > own) near_share = 1 - std::max(0.0f, own) / from_behind;
     };
     at_most(c.r, behind.r), at_most(c.g, behind.g), at_most(c.b, behind.b);
-    return share;
+    return near_share;
+}
+
+float share_before(Rgba c, const Guess& near, Rgba behind, float by_shape, ModelErrors errors) {
+    const Guess known{comparable(behind), 0};
+    return least_share_before(c, expected(comparable(c), near, known, by_shape, errors).near_share, behind);
 }
 
 }  // namespace petzval::engine

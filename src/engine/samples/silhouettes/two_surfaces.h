@@ -77,8 +77,11 @@ Explained expected(Rgba c, const Guess& near, const Guess& far, float by_shape, 
 // 0…1: the share of colour c that no mixture of the two explains.
 float unexplained(Rgba c, Rgba near, Rgba far);
 
-// The nearer surface's coverage of a pixel of colour c in front of a known background. The background cannot
-// contribute more light than it has.
+// The nearer surface's coverage of a pixel of colour c in front of a known background, which contributes no
+// more light than the pixel has.
 float share_before(Rgba c, const Guess& near, Rgba behind, float by_shape, ModelErrors errors);
+
+// `near_share`, or more if the pixel of colour c is too dark for the rest of this background.
+float least_share_before(Rgba c, float near_share, Rgba behind);
 
 }  // namespace petzval::engine

@@ -10,6 +10,7 @@
 #include "engine/samples/silhouettes/two_surfaces.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace petzval::engine {
 namespace {
@@ -56,6 +57,7 @@ Mixture taken_apart(const LitPicture& picture, View<const float> coc, View<const
     m.near_coc_px = s.near_coc, m.far_coc_px = s.far_coc;
     m.far_colour = far.colour;
     m.near_clean = near.colour, m.near_variance = near.variance, m.share_by_shape = s.near_share_by_shape;
+    m.far_variance = far.variance, m.far_most = s.far_most;
     m.lit = (touching(x, y) & kLit) != 0;
     m.thin = s.near_clean.empty() && !m.lit;
     if (m.thin) return m;  // unmix_strands()
@@ -88,6 +90,46 @@ Rgba composited(std::span<const Hidden> hidden) {
     return sum;
 }
 
+// The two surfaces in a pixel of colour c. Clean pixels of the nearer one lie at least two pixels away, so
+// its colour here may be another shade; but it is no less certain than that of the farther one.
+Explained explained_before(const Mixture& m, const LitPicture& picture, Rgba c) {
+    const float shade = completion_model.near_shade * luminance(m.near_clean);
+    const Guess near{m.near_clean, m.near_variance + std::min(shade * shade, m.far_variance)};
+    const Guess far{comparable(m.far_colour), m.far_variance};
+    Explained e = expected(comparable(c), near, far, m.share_by_shape, m.errors(picture));
+    e.far_colour = limited(e.far_colour, m.far_most, m.far_colour);
+    e.far_colour.a = m.far_colour.a;
+    e.near_share = least_share_before(c, e.near_share, e.far_colour);
+    return e;
+}
+
+void add_light(std::span<Hidden> hidden, Rgba more) {
+    for (Hidden& h : hidden) {
+        const float alpha = h.colour.a;
+        h.colour = light_only(h.colour + h.share * more);
+        h.colour.a = alpha;
+    }
+}
+
+void separate_nearer(Mixture& m, const LitPicture& picture, HiddenLayers& hidden, int x, int y) {
+    const auto behind = std::as_const(hidden).at(x, y);
+    if (!behind.empty()) m.far_colour = composited(behind);
+    const Rgba c = picture.dim(x, y);
+    if (m.thin || m.lit) {
+        m.near_share = share_before(c, {m.near_clean, m.near_variance}, m.far_colour, m.share_by_shape,
+                                    m.errors(picture));
+    } else {
+        const Explained e = explained_before(m, picture, c);
+        m.near_share = e.near_share;
+        if (!behind.empty()) add_light(hidden.own(x, y), e.far_colour - m.far_colour);
+        m.far_colour = e.far_colour;
+    }
+    m.near_colour = light_only(c - (1 - m.near_share) * m.far_colour);
+    const Rgba lamps = picture.colour(x, y) - c, lamps_before = lamps - m.far_light;
+    give_to_lamps(m);
+    m.near_colour += lamps_before;
+}
+
 }  // namespace
 
 Mixtures unmix_silhouettes(const LitPicture& picture, View<const float> coc_px,
@@ -109,21 +151,14 @@ Mixtures unmix_silhouettes(const LitPicture& picture, View<const float> coc_px,
     return mixtures;
 }
 
-void unmix_nearer(Mixtures& mixtures, const LitPicture& picture, const HiddenLayers& hidden,
-                  Workers& workers) {
-    const View<const Rgba> colour = picture.colour;
-    parallel_for(colour.height(), workers, [&](int y) {
-        mixtures.for_each_in_row(y, [&](int x, Mixture& m) {
-            if (m.shows_far) return;
-            if (const auto behind = hidden.at(x, y); !behind.empty()) m.far_colour = composited(behind);
-            const Rgba dim = picture.dim(x, y);
-            m.near_share = share_before(dim, {m.near_clean, m.near_variance}, m.far_colour, m.share_by_shape,
-                                        m.errors(picture));
-            m.near_colour = light_only(dim - (1 - m.near_share) * m.far_colour);
-            const Rgba lamps = colour(x, y) - dim, lamps_before = lamps - m.far_light;
-            give_to_lamps(m);
-            m.near_colour += lamps_before;
-        });
+void unmix_nearer(Mixtures& mixtures, const LitPicture& picture, HiddenLayers& hidden, Workers& workers) {
+    constexpr int kBand = HiddenLayers::kBand;
+    const int height = picture.colour.height();
+    parallel_for((height + kBand - 1) / kBand, workers, [&](int band) {
+        for (int y = band * kBand; y < std::min(height, (band + 1) * kBand); ++y)
+            mixtures.for_each_in_row(y, [&](int x, Mixture& m) {
+                if (!m.shows_far) separate_nearer(m, picture, hidden, x, y);
+            });
     });
 }
 

@@ -89,5 +89,33 @@ TEST(Unmix, TheRimOfALampDoesNotBelongToTheWallBehind) {
     EXPECT_LT(beside_lamp->far_colour.g, 0.05f);
 }
 
+// A dark roof in focus, cut smoothly, in front of a fine fence far behind: the fence is blurred, and must not
+// print its pattern on the edge of the roof.
+TEST(Unmix, StripesBehindAnEdgeLeaveNoMarksOnIt) {
+    constexpr int kSize = 48;
+    constexpr float kRoof = 0.02f, kDark = 0.08f, kLight = 0.45f, kFarPx = 12;
+    Picture colour(kSize, kSize);
+    Plane coc(kSize, kSize);
+    for (int y = 0; y < kSize; ++y)
+        for (int x = 0; x < kSize; ++x) {
+            const float end = 20.2f + 0.06f * float(x), covered = std::clamp(end - float(y), 0.0f, 1.0f);
+            const float light = covered * kRoof + (1 - covered) * (x % 2 == 0 ? kDark : kLight);
+            colour(x, y) = {light, light, light, 1};
+            coc(x, y) = float(y) + 0.5f < end ? 0 : kFarPx;
+        }
+    const LitPicture picture{colour, {{}, 0, 1}};
+    const Image<unsigned char> connected = connections(coc, one_thread());
+    Mixtures mixtures = unmix_silhouettes(picture, coc, connected, one_thread());
+    HiddenLayers hidden = fill_hidden(picture, coc, connected, mixtures, 0, kFarPx, {}, one_thread());
+    unmix_nearer(mixtures, picture, hidden, one_thread());
+    float most = 0;
+    for (int y = 0; y < kSize; ++y)
+        mixtures.for_each_in_row(y, [&](int x, const Mixture& m) {
+            if (m.shows_far || x < 6 || x >= kSize - 6) return;
+            most = std::max(most, std::abs(m.near_colour.g - m.near_share * kRoof));
+        });
+    EXPECT_LT(most, 0.04f);  // light that the roof does not have
+}
+
 }  // namespace
 }  // namespace petzval::engine
