@@ -35,17 +35,20 @@ Picture times(const Picture& picture, float factor) {
     return scaled;
 }
 
-// Renderers write light in units of their own: a dim room as 0.001, a street in the sun as 10 000 cd/m2.
+// Renderers write light in any unit: a dim room as 0.001, a street in the sun as 10 000 cd/m2.
 TEST_P(BuiltInScene, IsBlurredAlikeInAnyUnitOfLight) {
     SceneSettings settings;
-    settings.width = 96, settings.height = 54, settings.samples = 64;
+    settings.width = 96;
+    settings.height = 54;
+    settings.samples = 64;
     const Result<RenderedScene> made = render_scene(GetParam(), settings);
     ASSERT_TRUE(made.has_value());
     for (const std::string engine : {"scatter", "gather", "sprites", "gaussian"}) {
         const auto blurred = [&](float unit) {
             const Picture colour = times(made->colour, unit);
             DefocusJob job;
-            job.colour = colour, job.depth_m = made->depth_m;
+            job.colour = colour;
+            job.depth_m = made->depth_m;
             job.camera = made->camera;
             job.place = Place::whole(colour.rect());
             job.engine = engine;

@@ -115,9 +115,10 @@ struct HiddenLayers {
     std::span<Hidden> own(int x, int y) {
         Range& range = *ranges.at(x, y);
         std::vector<Hidden>& band = bands[std::size_t(y / kBand)];
-        const std::size_t begin = range.begin;
-        range.begin = band.size() & ((1U << 30) - 1);
-        for (std::size_t i = begin; i < begin + range.count; ++i) band.push_back(Hidden(band[i]));
+        const std::size_t from = range.begin, to = band.size();
+        range.begin = to & ((1U << 30) - 1);
+        band.resize(to + range.count);
+        std::copy_n(band.begin() + std::ptrdiff_t(from), range.count, band.begin() + std::ptrdiff_t(to));
         return at(x, y);
     }
     std::span<Hidden> at(int x, int y) {

@@ -74,7 +74,8 @@ LampsBehind find_lamps(const LitPicture& picture, View<const float> coc, View<co
     const int reach = int(completion_model.thin_within_px);
     const Rect window = Rect{x - reach, y - reach, x + reach + 1, y + reach + 1}.intersected(coc.rect());
     Rgba own = picture.colour(x, y) - picture.dim(x, y);
-    if (own == Rgba{}) own = picture.colour(x, y), own.a = 0;
+    if (own == Rgba{}) own = picture.colour(x, y);
+    own.a = 0;  // colour alone
     float near = 0, far = 0;
     std::vector<LitPixel> nearer;
     for (int v = window.y0; v < window.y1; ++v)

@@ -13,7 +13,8 @@ constexpr float kLeastFar = 0.1f;  // a farther surface that covers less of a pi
 }  // namespace
 
 float least_variance(Rgba c, ModelErrors errors) {
-    const float white = std::min(errors.white, kMostLight), squared = light2(c) + white * white;
+    const float white = std::min(errors.white, kMostLight);
+    const float squared = light2(c) + white * white;
     return kTiny + errors.times * errors.times * completion_model.model_error2 * squared;
 }
 

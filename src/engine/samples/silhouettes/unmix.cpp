@@ -57,7 +57,8 @@ Mixture taken_apart(const LitPicture& picture, View<const float> coc, View<const
     m.near_coc_px = s.near_coc, m.far_coc_px = s.far_coc;
     m.far_colour = far.colour;
     m.near_clean = near.colour, m.near_variance = near.variance, m.share_by_shape = s.near_share_by_shape;
-    m.far_variance = far.variance, m.far_most = s.far_most;
+    m.far_variance = far.variance;
+    m.far_most = s.far_most;
     m.lit = (touching(x, y) & kLit) != 0;
     m.thin = s.near_clean.empty() && !m.lit;
     if (m.thin) return m;  // unmix_strands()
