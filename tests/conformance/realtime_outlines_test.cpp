@@ -4,8 +4,8 @@
 namespace petzval::conformance {
 namespace {
 
-// A rail in focus before a background of two colours. Its rim has the background's depth and shows hardly any
-// of the rail, so where the colour changes it is brighter than the mean of the background around it.
+// A rail in focus before a background of two colours. The rim pixels have the background's depth and show
+// hardly any of the rail. Where the background changes, a rim pixel is brighter than the mean around it.
 TEST_F(Realtime, ARimThatShowsOnlyTheBackgroundIsBlurredLikeIt) {
     Shot behind = flat(128, 96, {0.2f, 0.2f, 0.2f, 1}, 16), shot = flat(128, 96, {0.2f, 0.2f, 0.2f, 1}, 16);
     for (int y = 0; y < 96; ++y)

@@ -12,7 +12,7 @@ namespace petzval::engine {
 // shows a little more or less of the same scene has the same lights.
 float white_of(View<const Rgba> picture, Workers& workers);
 
-// Luminance that counts as black in a frame with this white; keeps reciprocals finite.
+// Luminance that counts as black in a frame with this white (0: unknown); keeps reciprocals finite.
 constexpr float black_of(float white) { return white > 0 ? std::max(1e-20f, 1e-3f * white) : 1e-3f; }
 
 }  // namespace petzval::engine
