@@ -238,6 +238,16 @@ class Lab(Page):
             self.skipTest(f"the machine is busy: load {os.getloadavg()[0]:.0f}")
         self.assertLess(min(times), 2 * yardstick)
 
+    def test_sliders_stay_while_the_line_above_them_changes(self):
+        for width in (360, 800, 1280):
+            self.narrow(width)
+            self.open()
+            tops = [self.browser.execute_script("""
+                document.getElementById("told").textContent = arguments[0];
+                return document.getElementById("coc").getBoundingClientRect().top""", line)
+                    for line in ("Coarse preview.", "81 px wide, light 0.9876 0.9876 0.9876, 7 ms.", "181 px wide, light 0.9876 0.9876 0.9876, 2345 ms.")]
+            self.assertEqual(tops, tops[:1] * 3, width)
+
     def test_two_lenses_stand_side_by_side(self):
         self.open()
         self.browser.execute_script("const s = document.getElementById('beside'); s.value = 'triplet'; s.dispatchEvent(new Event('change'))")
