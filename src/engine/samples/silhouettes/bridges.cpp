@@ -17,6 +17,9 @@ namespace {
 
 constexpr int kTurns = 16;                                  // directions of a step
 constexpr int kLongestPx = 2 * SparseRows<Mixture>::kBand;  // of a gap; a strand's colour is known as far
+// Light that a tip takes from the surface behind, relative to the strand: more is a line of that surface, and
+// the tip ends where it takes less.
+constexpr float kMostAtTip = 1.3f, kLeastAtTip = 0.25f;
 
 struct Pixel {
     int x, y;
@@ -94,32 +97,46 @@ private:
         if (distance2(a, b) >= dot(less, less)) return {};
         return less;
     }
-    // Goes from pixel to pixel, to the one ahead that differs most from its sides as the strand does.
+    // Goes from pixel to pixel, to the one ahead that differs most from its sides as the strand does. What
+    // leads to no other pixel of the strand is its tip, up to where it fades.
     void follow(int x, int y, int k, std::vector<Gap>& gaps) const {
         const float own = coc_(x, y), behind = own + completion_model.apart_px();
         const std::optional<Rgba> strand = taken(x, y, k, behind);
         if (!strand) return;
+        const float all = dot(*strand, *strand);
         Gap gap{{}, own, own};
-        for (Direction at{float(x), float(y)}; gap.pixels.size() < std::size_t(kLongestPx);) {
+        std::optional<std::size_t> tip;  // number of its pixels, once known
+        Direction at{float(x), float(y)};
+        while (gap.pixels.size() < std::size_t(kLongestPx)) {
             float most = 0;
             int turned = 0;
             for (const int turn : {0, -1, 1}) {
                 const int u = nearest_pixel(at.x + step(k + turn).x),
                           v = nearest_pixel(at.y + step(k + turn).y);
                 if (!coc_.rect().contains(u, v)) continue;
-                if (coc_(u, v) <= behind) {
+                if (coc_(u, v) <= behind && one_surface(coc_(u, v), own)) {
                     gap.to_px = coc_(u, v);
-                    if (one_surface(gap.to_px, own) && !gap.pixels.empty()) gaps.push_back(std::move(gap));
-                    return;
+                    return keep(std::move(gap), gaps);
                 }
+                if (coc_(u, v) <= behind) return keep_tip(std::move(gap), tip, gaps);
                 const std::optional<Rgba> here = taken(u, v, k + turn, behind);
                 if (here && dot(*here, *strand) > most) most = dot(*here, *strand), turned = turn;
             }
-            if (most <= 0) return;
+            if (!tip && most > kMostAtTip * all) tip = 0;
+            if (!tip && most < kLeastAtTip * all) tip = gap.pixels.size();
+            if (most <= 0) break;
             k += turned;
             at = {at.x + step(k).x, at.y + step(k).y};
             gap.pixels.push_back({nearest_pixel(at.x), nearest_pixel(at.y)});
         }
+        keep_tip(std::move(gap), tip, gaps);
+    }
+    static void keep(Gap gap, std::vector<Gap>& gaps) {
+        if (!gap.pixels.empty()) gaps.push_back(std::move(gap));
+    }
+    static void keep_tip(Gap gap, std::optional<std::size_t> pixels, std::vector<Gap>& gaps) {
+        gap.pixels.resize(pixels.value_or(0));
+        keep(std::move(gap), gaps);
     }
 
     const LitPicture& picture_;

@@ -63,12 +63,31 @@ TEST(Bridges, FollowAStrandTwoPixelsFromAnother) {
     for (int x = 11; x < 22; ++x) EXPECT_LT(Strand::least(bridged, x), kNear + 0.01f) << x;
 }
 
-TEST(Bridges, NeedTheStrandAtBothEnds) { EXPECT_EQ(Strand(21).bridged().width(), 0); }
+TEST(Bridges, LeaveALineThatNeitherLeadsToTheStrandNorFades) { EXPECT_EQ(Strand(21).bridged().width(), 0); }
+
+TEST(Bridges, FollowATipUntilItFades) {
+    Strand strand(21);
+    for (int x = 9; x <= 10; ++x) strand.coc_px(x, Strand::row(x)) = kFloor;
+    for (int x = 18; x < 30; ++x) strand.cover(x, kFloorColour, kFloorColour);
+    const Plane bridged = strand.bridged();
+    ASSERT_EQ(bridged.width(), kWidth);
+    for (int x = 9; x < 18; ++x) EXPECT_EQ(Strand::least(bridged, x), kNear) << x;
+    for (int x = 19; x < 30; ++x) EXPECT_EQ(Strand::least(bridged, x), kFloor) << x;
+}
+
+TEST(Bridges, LeaveALineThatIsStrongerThanTheStrand) {
+    Strand strand(21);
+    for (int x = 13; x < 18; ++x) strand.cover(x, kFloorColour, Rgba{-0.4f, -0.4f, -0.4f, 1});
+    for (int x = 18; x < 30; ++x) strand.cover(x, kFloorColour, kFloorColour);
+    EXPECT_EQ(strand.bridged().width(), 0);
+}
 
 TEST(Bridges, NeedTheStrandsColourAllTheWay) {
     Strand strand;
     for (int x = 14; x < 18; ++x) strand.cover(x, kFloorColour, kFloorColour);
-    EXPECT_EQ(strand.bridged().width(), 0);
+    const Plane bridged = strand.bridged();
+    ASSERT_EQ(bridged.width(), kWidth);
+    for (int x = 15; x < 17; ++x) EXPECT_EQ(Strand::least(bridged, x), kFloor) << x;
 }
 
 TEST(Bridges, LeaveFloorBehindThatTheStrandNoLongerDarkens) {
