@@ -22,5 +22,29 @@ TEST_F(Realtime, ARimThatShowsOnlyTheBackgroundIsBlurredLikeIt) {
     }
 }
 
+// A dark surface in front of focus whose rim covers half of a row of pixels, which have the background's
+// depth: it looks like the mean of two surfaces, one with these pixels and one without them. No line follows
+// the rim.
+TEST_F(Realtime, AHalfCoveredRimInFrontOfFocusCountsOnce) {
+    const auto edge = [](int rim, float rim_light, float coc_px) {
+        Shot shot = flat(96, 64, {0.6f, 0.6f, 0.6f, 1}, 0);
+        for (int y = 0; y < 64; ++y) {
+            for (int x = 0; x < rim; ++x)
+                shot.colour(x, y) = {0.2f, 0.2f, 0.2f, 1}, shot.coc_px(x, y) = coc_px;
+            shot.colour(rim, y) = {rim_light, rim_light, rim_light, 1};
+        }
+        return shot;
+    };
+    for (const float coc_px : {-5.0f, -8.0f, -16.0f})
+        for (Session& session : sessions_) {
+            const Picture made = drawn(session, edge(48, 0.4f, coc_px));
+            const Picture without = drawn(session, edge(48, 0.6f, coc_px)),
+                          with = drawn(session, edge(49, 0.6f, coc_px));
+            for (int x = 40; x < 56; ++x)
+                EXPECT_NEAR(made(x, 32).g, 0.5f * (without(x, 32).g + with(x, 32).g), 0.012f)
+                    << coc_px << " at " << x;
+        }
+}
+
 }  // namespace
 }  // namespace petzval::conformance

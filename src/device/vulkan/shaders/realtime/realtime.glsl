@@ -58,12 +58,11 @@ float radius_of(float depth) {
     const float radius = at.add_px + at.per_depth_px * depth;
     return radius == radius ? clamp(radius, -at.most_px, at.most_px) : 0.0;
 }
-// The last bit of a stored radius marks a silhouette pixel that has a neighbour's radius; its own depth is the background's.
-float with_mark(float radius, bool is_marked) {
-    const uint bits = packHalf2x16(vec2(radius, 0));
-    return unpackHalf2x16(is_marked ? bits | 1u : bits & ~1u).x;
-}
-bool has_mark(float stored) { return (packHalf2x16(vec2(stored, 0)) & 1u) != 0u; }
+// The last bits of a stored radius mark pixels that show two surfaces and have the background's depth: a silhouette pixel that
+// has the near surface's radius, or a rim pixel (realtime_rims.glsl).
+const uint kSilhouette = 1u, kRimPixel = 2u;
+float with_mark(float radius, uint mark) { return unpackHalf2x16(packHalf2x16(vec2(radius, 0)) & ~3u | mark).x; }
+uint mark_of(float stored) { return packHalf2x16(vec2(stored, 0)) & 3u; }
 // smoothstep() between two constants, without its division.
 float ramp(float from, float to, float x) {
     const float part = clamp(x * (1 / (to - from)) - from / (to - from), 0.0, 1.0);
@@ -72,8 +71,6 @@ float ramp(float from, float to, float x) {
 // The share of light at this radius that cells draw; the rest is blurred pixel by pixel.
 const float kWholePx = 3.5;  // from there on they draw all
 float blurred_share(float radius_px) { return ramp(2.0, kWholePx, radius_px); }
-// The radius if light at this radius is blurred pixel by pixel, 0 if not.
-float pixelwise(float radius_px) { return radius_px > 0.5 && radius_px < kWholePx ? radius_px : 0.0; }
 // The radius that cells gather over: with the blur of the cells themselves (boxes and tents of two pixels)
 // the disc has the right second moment.
 float gathered_radius(float radius_px) { return sqrt(max(radius_px * radius_px - 4, 1.0)); }

@@ -24,7 +24,7 @@ shared vec2 window_discs[kAcross * kAcross];  // signed reach, at least half a p
 // Radii of the window's pixels, as bits. widest_px: the largest of those blurred pixel by pixel behind focus, of those in
 // front of it, and of all in front of it. farthest_px: the smallest in front of focus; 0 if a pixel is behind it.
 shared uint widest_px[3], farthest_px;
-shared uint silhouettes_found;  // 0 if no pixel shows a hardly blurred surface and its background
+shared uint marks_found;        // 0 if no pixel is marked
 const float kHardlyPx = 2;      // a surface with this radius is hardly blurred
 const float kFarMorePx = 2;     // a surface blurred by so much more than the one beside it is far behind it
 const float kAnyPx = 8;         // stands for any radius of light that cells draw (back_at)
@@ -51,29 +51,33 @@ vec2 disc_of(float radius) {
 struct Widest {
     vec3 widest;
     float farthest;
-    uint silhouettes;  // a bit for each pixel that shows a hardly blurred surface and its background
+    uint marks;  // a bit for each silhouette pixel that is hardly blurred, and four bits later for each rim pixel
 };
 void read_pixel(ivec2 place, ivec2 pixel, ivec2 last, uint number, inout Widest found) {
     if (max(place.x, place.y) >= kAcross) return;
     const ivec2 there = clamp(pixel, ivec2(0), last);
     const int i = place.y * kAcross + place.x;
-    const float radius = radius_at(there), fine_px = pixelwise(abs(radius));
+    const float radius = radius_at(there), all_px = abs(radius), fine_px = all_px > 0.5 && all_px < kWholePx ? radius : 0.0;
     const vec2 disc = disc_of(radius);
     window[i] = finite_of(texelFetch(colours, there, 0));
     window_discs[i] = disc;
-    found.widest = max(found.widest, vec3(radius > 0 ? vec2(fine_px, 0) : vec2(0, fine_px), -radius));
+    found.widest = max(found.widest, vec3(fine_px, -fine_px, -radius));
     found.farthest = min(found.farthest, -disc.x);
-    if (abs(radius) < kHardlyPx && has_mark(radius) && min(place.x, place.y) > 0 && max(place.x, place.y) < kAcross - 1)
-        found.silhouettes |= 1u << number;
+    const uint mark = mark_of(radius);
+    if (mark != 0u) {
+        if (mark == kRimPixel && all_px < kWholePx) found.marks |= 16u << number;
+        if (mark == kSilhouette && all_px < kHardlyPx && min(place.x, place.y) > 0 && max(place.x, place.y) < kAcross - 1)
+            found.marks |= 1u << number;
+    }
 }
 // Reads the window; all invocations of the group call it together. Four calls and no loop, so that the reads overlap.
-// Returns the silhouette pixels of this invocation.
+// Returns the marks of this invocation's pixels.
 uint read_window() {
     const int own = int(gl_LocalInvocationIndex);
     const ivec2 local = ivec2(gl_LocalInvocationID.xy), pixel = ivec2(gl_GlobalInvocationID.xy) - kRim, last = at.size - 1;
     if (own < 3) widest_px[own] = 0u;
     if (own == 3) farthest_px = floatBitsToUint(at.most_px);
-    if (own == 4) silhouettes_found = 0u;
+    if (own == 4) marks_found = 0u;
     Widest found = Widest(vec3(0), at.most_px, 0u);
     read_pixel(local, pixel, last, 0u, found);
     read_pixel(local + ivec2(8, 0), pixel + ivec2(8, 0), last, 1u, found);
@@ -82,10 +86,10 @@ uint read_window() {
     barrier();
     for (int i = 0; i < 3; ++i)
         if (found.widest[i] > 0) atomicMax(widest_px[i], floatBitsToUint(found.widest[i]));
-    if (found.silhouettes != 0u) atomicOr(silhouettes_found, found.silhouettes);
+    if (found.marks != 0u) atomicOr(marks_found, found.marks);
     atomicMin(farthest_px, floatBitsToUint(max(found.farthest, 0.0)));
     if (max(local.x, local.y) < kSquare) inside[local.y * kSquare + local.x] = 0.5 - length(vec2(local.x - kRim, float(local.y - kRim) / at.aspect));
-    return found.silhouettes;
+    return found.marks;
 }
 // Offsets of pixels that a disc reaches.
 int last_offset(float radius_px) { return min(int(ceil(max(radius_px, 0.5) - 0.5)), kRim); }
@@ -134,29 +138,6 @@ Behind behind_at(int own, float near_px) {
     if (sum.area > 0) sum.light *= 1 / sum.area, sum.sharp /= sum.area;
     return sum;
 }
-// The light of a pixel beside a near surface, without that surface's part of it. The pixel shows some of it although its
-// depth is the background's: at most half.
-vec4 without_near(int own, float radius) {
-    const vec4 light = window[own];
-    if (abs(radius) >= kWholePx) return light;
-    vec4 near = vec4(0);
-    float nearest = 0, area = 0;
-    for (int y = -1; y <= 1; ++y)
-        for (int x = -1; x <= 1; ++x) {
-            const int there = own + y * kAcross + x;
-            const float there_px = window_discs[there].x;
-            if (there_px > -kWholePx) continue;
-            near += window[there], area += 1;
-            nearest = min(nearest, there_px);
-        }
-    if (area == 0) return light;
-    const Behind behind = behind_at(own, nearest);
-    if (behind.area == 0) return light;
-    const vec4 apart = near / area - behind.light;
-    const float share = dot((light - behind.light).rgb, apart.rgb) / max(dot(apart.rgb, apart.rgb), 1e-9);
-    return max(light - clamp(share, 0.0, 0.5) * apart, vec4(0));
-}
-
 struct Fine {
     vec4 back, near;
     float back_area, area;  // of what is behind focus or taken for it, 0: `back` is sharp; of what is in front
@@ -165,10 +146,6 @@ struct Fine {
 // Removes the near surface from the picture in the window. Returns the signed radius of the surface behind it. All
 // invocations of the group call it together.
 float reveal(int own, float radius) {
-    const vec4 light = without_near(own, radius);
-    barrier();
-    window[own] = light;
-    barrier();
     Behind behind = Behind(vec4(0), 0, 0, 0);
     if (radius <= -kWholePx) behind = behind_at(own, radius);
     barrier();
@@ -287,7 +264,7 @@ void blur_background_in(ivec2 place) {
     [[dont_unroll]] for (int y = -1; y <= 1; ++y)
         [[dont_unroll]] for (int x = -1; x <= 1; ++x) {
             const int there = own + y * kAcross + x;
-            if (window_discs[there].x >= far_more || has_mark(radius_at(clamp(pixel + ivec2(x, y), ivec2(0), last)))) continue;
+            if (window_discs[there].x >= far_more || mark_of(radius_at(clamp(pixel + ivec2(x, y), ivec2(0), last))) != 0u) continue;
             near += window[there];
             count += 1;
         }
@@ -302,11 +279,23 @@ void blur_background_in(ivec2 place) {
     // Light off the line between both colours is divided like the rest, or the background's part of it would stay sharp.
     if (is_known > 0) window[own] = max(share * light + (1 - share) * (blurred + share * apart), vec4(0));
 }
+// Read from the images, because the window's outer pixels have neighbours beyond it.
+float px_at(ivec2 pixel) { return radius_at(clamp(pixel, ivec2(0), at.size - 1)); }
+float near_px_at(ivec2 pixel, int place) { return px_at(pixel); }
+#include "realtime_rims.glsl"
+void take_near_part(ivec2 place) {
+    const int own = place.y * kAcross + place.x;
+    float near_px, taken;
+    const vec4 part = near_part(8 * ivec2(gl_WorkGroupID.xy) - kRim + place, own, window[own], near_px, taken);
+    window[own] = max(window[own] - taken * part, vec4(0));
+}
 // All invocations of the group call it together, each for the pixels that it has read.
-void blur_backgrounds(uint silhouettes) {
-    for (uint left = silhouettes; left != 0u; left &= left - 1u) {
+void divide_pixels(uint marks) {
+    for (uint left = marks; left != 0u; left &= left - 1u) {
         const int number = findLSB(left);
-        blur_background_in(ivec2(gl_LocalInvocationID.xy) + 8 * ivec2(number & 1, number >> 1));
+        const ivec2 place = ivec2(gl_LocalInvocationID.xy) + 8 * ivec2(number & 1, number >> 1 & 1);
+        if (number < 4) blur_background_in(place);
+        else take_near_part(place);
     }
     barrier();
 }
@@ -359,11 +348,11 @@ void main() {
     float back_px = 0;
     if (is_fine) {
         own = (int(gl_LocalInvocationID.y) + kRim) * kAcross + int(gl_LocalInvocationID.x) + kRim;
-        const uint silhouettes = read_window();
+        const uint marks = read_window();
         barrier();
         back_px = uintBitsToFloat(widest_px[0]);
         const float near_px = uintBitsToFloat(widest_px[1]), nearest = uintBitsToFloat(widest_px[2]);
-        if (silhouettes_found != 0u) blur_backgrounds(silhouettes);
+        if (marks_found != 0u) divide_pixels(marks);
         if (has_near && nearest >= kWholePx && uintBitsToFloat(farthest_px) < 0.8 * nearest) radius = reveal(own, radius);
         add_near(own, near_px, fine);
     }

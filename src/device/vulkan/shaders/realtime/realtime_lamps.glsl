@@ -69,10 +69,10 @@ float radius_of_part(float of_lamp, float share) {
 // The light of a lamp in this pixel. A lamp stands out from the surfaces around it. It also has at least a sixteenth of the
 // light that all discs of its radius bring to a pixel, so about sixteen lamps at most reach a pixel. Taps show all other
 // light. radius: that of the pixel; that of a small lamp replaces it.
-vec4 lamp_of(ivec2 pixel, vec4 light, inout float radius) {
+vec4 lamp_of(ivec2 pixel, vec4 light, float least, inout float radius) {
     const float kStandsOut = 1.0 / 16;
     const float own = brightness(light);
-    if (own <= 4 * uintBitsToFloat(least_around)) return vec4(0);  // most pixels, before any interpolation
+    if (own <= least) return vec4(0);  // most pixels, before any interpolation
     const vec2 around = surroundings_at(pixel);
     float floor_light = 4 * around.x;
     if (own <= floor_light) return vec4(0);

@@ -21,6 +21,9 @@ const int kAcross = kTile + 2;
 shared float window[kAcross * kAcross];  // signed radii by depth, of the tile's pixels and those around it
 shared vec4 part[kLayers][64];
 shared uint lamp_cells[2], lamp_px;  // as bits: they are ordered as floats are
+float px_at(ivec2 pixel) { return radius_of(texelFetch(depths, clamp(pixel, ivec2(0), at.size - 1), 0).r); }
+float near_px_at(ivec2 pixel, int place) { return window[place]; }
+#include "realtime_rims.glsl"
 
 // The signed radius of a cell's lamp, which is that of its brightest pixel. One or two bright pixels among dark ones of the
 // same depth, beside farther pixels, are a half-covered lamp behind.
@@ -153,31 +156,42 @@ void main() {
     vec4 lamp = vec4(0), own_radii;
     const int first_place = (2 * local.y + 1) * kAcross + 2 * local.x + 1;
     const vec4 nearest = nearest_around(first_place);
+    const ivec2 first_pixel = 2 * cell, last = at.size - 1;
+    const float least_lamp = 4 * uintBitsToFloat(least_around), least_shadow_px = -at.most_px * (1.0 / float(kShadowSteps));
     for (int i = 0; i < 4; ++i) {
         // Continues the border beyond the picture.
-        const ivec2 corner = ivec2(i & 1, i >> 1), drawn_at = 2 * cell + corner, pixel = min(drawn_at, at.size - 1);
-        const bool is_inside = pixel == drawn_at;
+        const ivec2 corner = ivec2(i & 1, i >> 1), drawn_at = first_pixel + corner, pixel = min(drawn_at, last);
         vec4 light = light_of(texelFetch(colours, pixel, 0));
-        const int place = first_place + (i >> 1) * kAcross + (i & 1);
+        const int place = first_place + corner.y * kAcross + corner.x;
         const float of_depth = window[place];
         float radius = of_depth;
         if (nearest[i] <= of_depth - kApart) radius = own_radius(drawn_at, place, light, of_depth);
-        const bool is_marked = radius != of_depth;
-        const vec4 bright = lamp_of(pixel, light, radius);
-        own_radii[i] = with_mark(radius, is_marked);
+        uint mark = radius != of_depth ? kSilhouette : 0u;
+        const vec4 bright = lamp_of(pixel, light, least_lamp, radius);
         const float drawn = blurred_share(abs(radius));  // by cells
         if (bright != vec4(0)) {
             light -= bright;
-            if (is_inside) {
+            if (pixel == drawn_at) {
                 const vec4 taken = drawn * bright;
                 lamp += taken;
                 lamp_place += brightness(taken) * (vec2(corner) + 0.5);
             }
+        } else if (nearest[i] <= kRimPx && nearest[i] <= of_depth - 1 && mark == 0u) {
+            float near_px, taken;
+            const vec4 part = near_part(drawn_at, place, light, near_px, taken);
+            if (part != vec4(0)) mark = kRimPixel;
+            light -= taken * part;
+            // The part adds hardly any area, because pixels with the near surface's depth show as much of the background.
+            const float near = 0.25 * blurred_share(-near_px), hardly = 1e-3 * near;
+            near_light += near * part;
+            near_area += hardly, near_counts += hardly;
+            near_radius += hardly * gathered_radius(near_px);
         }
+        own_radii[i] = with_mark(radius, mark);
         // Light in focus counts as a quarter of a pixel: `combine` may continue it behind near surfaces. In silhouettes in focus
         // it blurs the background.
-        const float in_focus_px = is_marked ? 1.0 : 0.25, fine_px = abs(radius) > 0.5 ? pixelwise(abs(radius)) : in_focus_px;
-        range = max(range, vec3(-radius, fine_px, radius < -at.most_px * (1.0 / float(kShadowSteps)) ? -at.most_px : -radius));
+        const float all_px = abs(radius), fine_px = all_px > 0.5 ? (all_px < kWholePx ? all_px : 0.0) : (mark != 0u ? 1.0 : 0.25);
+        range = max(range, vec3(-radius, fine_px, radius < least_shadow_px ? -at.most_px : -radius));
         if (radius < -2) {
             const float near = 0.25 * drawn;
             near_light += near * light, near_area += near;

@@ -85,7 +85,7 @@ float seen(vec2 from, vec2 to, float radius, float per_radius, float last) {
         if (min(min(radii.x, radii.y), min(radii.z, radii.w)) > hides_px) continue;  // most cells hide nothing
         const ivec2 pixel = ivec2(2 * place);
         const float there = radii[(pixel.y & 1) << 1 | pixel.x & 1], nearer = 1 - there * per_radius;
-        if (nearer < 0.05 || has_mark(there)) continue;
+        if (nearer < 0.05 || mark_of(there) == kSilhouette) continue;
         hidden += ramp(0.05, 0.2, nearer) * max(0.0, 1 - abs(float(kShadowSteps) * nearer - way));
         if (hidden >= 1) return 0;
     }
