@@ -54,15 +54,16 @@ private:
         return (near(x - 1, y) && near(x + 1, y)) || (near(x, y - 1) && near(x, y + 1));
     }
     // The surface behind, from all pixels around that show it. Those that the strand mixes into count after
-    // its part was taken out, and less if the error of that part exceeds the surface's own variance. Gaps
-    // count where no other pixel shows the surface.
+    // its part was taken out, and less if the error of that part exceeds the surface's own variance. The part
+    // is the mean of what the silhouette's shape and the pixel's colour state, weighted by their errors:
+    // where clean pixels are plain, the colour tells. Gaps count where no other pixel shows the surface.
     Guess behind(int x, int y, const Mixture& m, Rgba near) const {
         const float own_light = std::max(0.0f, luminance(picture_.dim(x, y))) + picture_.black();
         const float threshold = strand_threshold_px(m), third = third_surface_px(coc_(x, y), threshold);
         const Rect window =
             Rect{x - reach_px_, y - reach_px_, x + reach_px_ + 1, y + reach_px_ + 1}.intersected(coc_.rect());
         const auto dimmer = [&](Rgba c) { return 1 / (own_light + std::max(0.0f, luminance(c))); };
-        Pool clean, mixed, all, gaps;
+        Pool clean, evenly, mixed, all, gaps;  // evenly: the clean pixels, near and far ones alike
         std::array<Shown, kMostShown> shown;
         std::size_t count = 0;
         for (int v = window.y0; v < window.y1; ++v)
@@ -73,19 +74,27 @@ private:
                 const Mixture* const at = mixtures_.at(u, v);
                 const float weight = near_by * dimmer(c);
                 (at ? mixed : clean).add(c, weight);
+                if (!at) evenly.add(c, dimmer(c));
                 shown[count++] = {c, at, near_by, weight, at && is_gap(u, v, threshold)};
             }
         const Guess first = (clean.empty() ? mixed : clean).guess();
         const float own = first.variance + least_variance(first.colour, m.errors(picture_));
-        const float off = m.errors(picture_).times * completion_model.shape_error;
-        const float error = off * off * distance2(near, first.colour) / 3;
+        const Rgba across = near - first.colour;
+        const float apart2 = std::max(1e-16f, dot(across, across)) / 3;  // mean of the channels, as variances
+        const float off = m.errors(picture_).times * completion_model.shape_error, by_shape2 = off * off;
+        const float by_colour2 = clean.empty() ? 1e9f : (own + evenly.guess().variance) / apart2;
+        const float shape_tells = by_colour2 / (by_colour2 + by_shape2);
+        const float error = shape_tells * by_shape2 * apart2;
         for (const Shown& s : std::span(shown).first(count)) {
             if (!s.at) {
                 all.add(s.colour, s.weight);
                 continue;
             }
             if (s.at->lit) continue;
-            const float rest = std::max(0.05f, 1 - s.at->share_by_shape);
+            const float by_colour =
+                std::clamp(dot(comparable(s.colour) - first.colour, across) / (3 * apart2), 0.0f, 1.0f);
+            const float part = by_colour + shape_tells * (s.at->share_by_shape - by_colour);
+            const float rest = std::max(0.05f, 1 - part);
             Rgba cleared = light_only((1 / rest) * (comparable(s.colour) - (1 - rest) * near));
             cleared.a = s.colour.a;
             (s.is_gap ? gaps : all)

@@ -26,7 +26,7 @@ struct Hair {
         return y / 3 % 2 == 0 ? Rgba{0.7f, 0.7f, 0.7f, 1} : Rgba{0.1f, 0.4f, 0.1f, 1};
     }
 
-    explicit Hair(float width_px = 0.4f) {
+    explicit Hair(float width_px = 0.4f, Rgba (*behind)(int y) = stripes) {
         for (int y = 0; y < kSize; ++y)
             for (int x = 0; x < kSize; ++x) {
                 for (int k = 0; k < 8; ++k) {
@@ -34,7 +34,7 @@ struct Hair {
                     covered(x, y) += std::max(0.0f, std::min(right, float(x + 1)) - std::max(left, float(x)));
                     if (float(x) + 0.5f >= left && float(x) + 0.5f < right) coc_px(x, y) = 0;
                 }
-                colour(x, y) = covered(x, y) * kHair + (1 - covered(x, y)) * stripes(y);
+                colour(x, y) = covered(x, y) * kHair + (1 - covered(x, y)) * behind(y);
             }
         mixtures =
             unmix_silhouettes({colour, kNoLamps}, coc_px, connections(coc_px, one_thread()), one_thread());
@@ -70,6 +70,21 @@ TEST(Strands, ContinueWherePixelMiddlesMissThem) {
     });
     EXPECT_GT(of_missed, 20);
     EXPECT_NEAR(missed / of_missed, 1, 0.35);
+}
+
+const Rgba kWall{0.4f, 0.4f, 0.4f, 1};
+Rgba plain(int) { return kWall; }
+
+// What no depth shows of a strand, its colour shows before a plain wall.
+TEST(Strands, LeaveNothingInAPlainWall) {
+    const Hair hair(0.4f, plain);
+    double error = 0, unseparated = 0;
+    hair.for_each([&](int x, int y, const Mixture& m) {
+        if (!m.shows_far) return;
+        error += distance2(m.far_colour, kWall);
+        unseparated += distance2(hair.colour(x, y), kWall);
+    });
+    EXPECT_LT(error, 0.04 * unseparated);  // 0.09 by the shape alone
 }
 
 TEST(Strands, LeaveTheStripesToTheSurfaceBehind) {
