@@ -37,7 +37,9 @@ struct Mixture {
     bool shows_far = false;    // true if the depth is that of the farther surface
     bool lights_near = false;  // true if lamps light the nearer surface
     bool lit = false;          // true if lamps light the pixel or one beside it
-    bool thin = false;     // true if no clean pixel of the nearer surface is nearby, and the pixel is not lit
+    bool thin = false;  // true if no clean pixel of the nearer surface is nearby, and the pixel is not lit
+    // True if the pixel shows the farther surface, no clean pixel of which is nearby, and it is not lit.
+    bool enclosed = false;
     float near_share = 0;  // 0…1: coverage of the nearer surface
     Rgba near_colour;      // premultiplied by near_share; includes the light of lamps on this surface
     Rgba far_colour;       // colour of the farther surface if it filled the pixel; without lamps
@@ -53,7 +55,7 @@ struct Mixture {
 
     // Errors of shape and model; larger at strands and beside lamps.
     ModelErrors errors(const LitPicture& picture) const {
-        return {thin || lit ? completion_model.strand_errors : 1, picture.dim_of.white};
+        return {thin || enclosed || lit ? completion_model.strand_errors : 1, picture.dim_of.white};
     }
     // Separates the colour c, without lamps, of a pixel that shows the farther surface.
     void take_apart(Rgba c, float near_covers, Rgba behind) {

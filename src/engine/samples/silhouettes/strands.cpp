@@ -25,7 +25,8 @@ public:
 
     // Writes what the pixel shows of the strand and of the surface behind.
     void separate(int x, int y, Mixture& m) const {
-        const Guess near{colours_.at(x, y, m), m.near_variance}, far = behind(x, y, m, near.colour);
+        const Guess near{m.enclosed ? m.near_clean : colours_.at(x, y, m), m.near_variance};
+        const Guess far = behind(x, y, m, near.colour);
         const Rgba c = picture_.dim(x, y);
         const Explained e = expected(comparable(c), near, far, m.share_by_shape, m.errors(picture_));
         m.near_clean = near.colour;
@@ -43,8 +44,22 @@ private:
         bool is_gap;
     };
     static constexpr int kMostReachPx = 5;  // of UnmixRule::clean_within_px
+    static constexpr int kWiderPx = 4;      // where no clean pixel of the surface behind is within reach
     static constexpr std::size_t kWindowPx = 2 * kMostReachPx + 1, kMostShown = kWindowPx * kWindowPx;
 
+    // visit(u, v, near_by) for the pixels around that show the surface behind a strand at (x, y).
+    template <typename Visit>
+    void for_each_behind(int x, int y, int reach_px, float threshold_px, const Visit& visit) const {
+        const float third = third_surface_px(coc_(x, y), threshold_px);
+        const Rect window =
+            Rect{x - reach_px, y - reach_px, x + reach_px + 1, y + reach_px + 1}.intersected(coc_.rect());
+        for (int v = window.y0; v < window.y1; ++v)
+            for (int u = window.x0; u < window.x1; ++u) {
+                if (coc_(u, v) > third || coc_(u, v) <= threshold_px) continue;
+                const float d2 = float((u - x) * (u - x) + (v - y) * (v - y));
+                visit(u, v, 1 / (1 + d2 * d2));
+            }
+    }
     // True if the pixel lies between two pixels that show strands. The shape of one silhouette says little
     // about the share of both strands in it.
     bool is_gap(int x, int y, float threshold_px) const {
@@ -55,36 +70,37 @@ private:
     }
     // The surface behind, from all pixels around that show it. Those that the strand mixes into count after
     // its part was taken out, and less if the error of that part exceeds the surface's own variance. The part
-    // is the mean of what the silhouette's shape and the pixel's colour state, weighted by their errors:
-    // where clean pixels are plain, the colour tells. Gaps count where no other pixel shows the surface.
+    // is a mean of two, one by the silhouette's shape and one by the pixel's colour, weighted by their
+    // errors: before a plain wall, the colour decides. Gaps count where no other pixel shows the surface.
     Guess behind(int x, int y, const Mixture& m, Rgba near) const {
         const float own_light = std::max(0.0f, luminance(picture_.dim(x, y))) + picture_.black();
-        const float threshold = strand_threshold_px(m), third = third_surface_px(coc_(x, y), threshold);
-        const Rect window =
-            Rect{x - reach_px_, y - reach_px_, x + reach_px_ + 1, y + reach_px_ + 1}.intersected(coc_.rect());
+        const float threshold = strand_threshold_px(m);
         const auto dimmer = [&](Rgba c) { return 1 / (own_light + std::max(0.0f, luminance(c))); };
         Pool clean, evenly, mixed, all, gaps;  // evenly: the clean pixels, near and far ones alike
+        const auto add_clean = [&](Rgba c, float near_by) {
+            clean.add(c, near_by * dimmer(c)), evenly.add(c, dimmer(c));
+        };
         std::array<Shown, kMostShown> shown;
         std::size_t count = 0;
-        for (int v = window.y0; v < window.y1; ++v)
-            for (int u = window.x0; u < window.x1; ++u) {
-                if (coc_(u, v) > third || coc_(u, v) <= threshold) continue;
-                const float d2 = float((u - x) * (u - x) + (v - y) * (v - y)), near_by = 1 / (1 + d2 * d2);
-                const Rgba c = picture_.dim(u, v);
-                const Mixture* const at = mixtures_.at(u, v);
-                const float weight = near_by * dimmer(c);
-                (at ? mixed : clean).add(c, weight);
-                if (!at) evenly.add(c, dimmer(c));
-                shown[count++] = {c, at, near_by, weight, at && is_gap(u, v, threshold)};
-            }
+        for_each_behind(x, y, reach_px_, threshold, [&](int u, int v, float near_by) {
+            const Rgba c = picture_.dim(u, v);
+            const Mixture* const at = mixtures_.at(u, v);
+            if (at) mixed.add(c, near_by * dimmer(c));
+            if (!at) add_clean(c, near_by);
+            shown[count++] = {c, at, near_by, near_by * dimmer(c), at && is_gap(u, v, threshold)};
+        });
+        if (clean.empty())
+            for_each_behind(x, y, reach_px_ + kWiderPx, threshold, [&](int u, int v, float near_by) {
+                if (!mixtures_.at(u, v)) add_clean(picture_.dim(u, v), near_by);
+            });
         const Guess first = (clean.empty() ? mixed : clean).guess();
         const float own = first.variance + least_variance(first.colour, m.errors(picture_));
         const Rgba across = near - first.colour;
         const float apart2 = std::max(1e-16f, dot(across, across)) / 3;  // mean of the channels, as variances
-        const float off = m.errors(picture_).times * completion_model.shape_error, by_shape2 = off * off;
-        const float by_colour2 = clean.empty() ? 1e9f : (own + evenly.guess().variance) / apart2;
-        const float shape_tells = by_colour2 / (by_colour2 + by_shape2);
-        const float error = shape_tells * by_shape2 * apart2;
+        const float off = m.errors(picture_).times * completion_model.shape_error, shape_error2 = off * off;
+        const float colour_error2 = clean.empty() ? 1e9f : (own + evenly.guess().variance) / apart2;
+        const float by_shape = colour_error2 / (colour_error2 + shape_error2);
+        const float error = by_shape * shape_error2 * apart2;
         for (const Shown& s : std::span(shown).first(count)) {
             if (!s.at) {
                 all.add(s.colour, s.weight);
@@ -93,7 +109,7 @@ private:
             if (s.at->lit) continue;
             const float by_colour =
                 std::clamp(dot(comparable(s.colour) - first.colour, across) / (3 * apart2), 0.0f, 1.0f);
-            const float part = by_colour + shape_tells * (s.at->share_by_shape - by_colour);
+            const float part = by_colour + by_shape * (s.at->share_by_shape - by_colour);
             const float rest = std::max(0.05f, 1 - part);
             Rgba cleared = light_only((1 / rest) * (comparable(s.colour) - (1 - rest) * near));
             cleared.a = s.colour.a;
@@ -118,7 +134,7 @@ void unmix_strands(Mixtures& mixtures, const LitPicture& picture, View<const flo
     const Strands strands(mixtures, picture, coc, rule.clean_within_px, workers);
     parallel_for(coc.height(), workers, [&](int y) {
         mixtures.for_each_in_row(y, [&](int x, Mixture& m) {
-            if (m.thin) strands.separate(x, y, m);
+            if (m.thin || m.enclosed) strands.separate(x, y, m);
         });
     });
 }

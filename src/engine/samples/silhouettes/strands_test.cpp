@@ -75,7 +75,7 @@ TEST(Strands, ContinueWherePixelMiddlesMissThem) {
 const Rgba kWall{0.4f, 0.4f, 0.4f, 1};
 Rgba plain(int) { return kWall; }
 
-// What no depth shows of a strand, its colour shows before a plain wall.
+// Before a plain wall, a pixel's colour shows the strand that its depth misses.
 TEST(Strands, LeaveNothingInAPlainWall) {
     const Hair hair(0.4f, plain);
     double error = 0, unseparated = 0;
@@ -144,6 +144,27 @@ TEST(Strands, ThatALampLightsAreLeftToTheLamp) {
             ++near_lamp;
         });
     EXPECT_GT(near_lamp, 0);
+}
+
+// Two bars of 4 px before a wall, with a gap of 1.3 px between them that two pixels show in each row.
+TEST(Strands, LeaveTheWallItsColourBetweenTwoBars) {
+    constexpr int kGap = 30;
+    const Rgba bar{0.03f, 0.03f, 0.03f, 1};
+    Picture colour(kSize, kSize, kWall);
+    Plane coc_px(kSize, kSize, 6.6f);
+    for (int y = 0; y < kSize; ++y) {
+        for (const int left : {kGap - 4, kGap + 2})
+            for (int x = left; x < left + 4; ++x) colour(x, y) = bar, coc_px(x, y) = 0;
+        colour(kGap, y) = 0.4f * bar + 0.6f * kWall;
+        colour(kGap + 1, y) = 0.3f * bar + 0.7f * kWall;
+    }
+    const Mixtures mixtures =
+        unmix_silhouettes({colour, kNoLamps}, coc_px, connections(coc_px, one_thread()), one_thread());
+    for (const int x : {kGap, kGap + 1}) {
+        const Mixture* const m = mixtures.at(x, kSize / 2);
+        ASSERT_NE(m, nullptr);
+        EXPECT_NEAR(m->far_colour.g, kWall.g, 0.04f) << x;
+    }
 }
 
 // Two bars before a wall, with a gap of 0.3 px between them that one pixel shows in each row.

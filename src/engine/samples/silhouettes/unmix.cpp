@@ -61,7 +61,8 @@ Mixture taken_apart(const LitPicture& picture, View<const float> coc, View<const
     m.far_most = s.far_most;
     m.lit = (touching(x, y) & kLit) != 0;
     m.thin = s.near_clean.empty() && !m.lit;
-    if (m.thin) return m;  // unmix_strands()
+    m.enclosed = m.shows_far && !s.near_clean.empty() && s.far_clean.empty() && !m.lit;
+    if (m.thin || m.enclosed) return m;  // unmix_strands()
     const Rgba c = picture.dim(x, y);
     const Rgba lamps = picture.colour(x, y) - c;
     if (m.lit) {
