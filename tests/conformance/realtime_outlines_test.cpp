@@ -22,6 +22,21 @@ TEST_F(Realtime, ARimThatShowsOnlyTheBackgroundIsBlurredLikeIt) {
     }
 }
 
+// Discs of 0.45 px reach the pixels beside their own, on both sides of focus.
+TEST_F(Realtime, ARadiusBelowHalfAPixelIsBlurred) {
+    for (const float coc_px : {-0.45f, 0.45f}) {
+        Shot shot = flat(64, 48, {0.2f, 0.2f, 0.2f, 1}, coc_px);
+        for (int y = 0; y < 48; ++y)
+            for (int x = 32; x < 64; ++x) shot.colour(x, y) = {0.8f, 0.8f, 0.8f, 1};
+        for (Session& session : sessions_) {
+            const Picture made = drawn(session, shot);
+            EXPECT_NEAR(made(31, 24).g, 0.2f + 0.028f * 0.6f, 0.005f) << coc_px;
+            EXPECT_NEAR(made(32, 24).g, 0.8f - 0.028f * 0.6f, 0.005f) << coc_px;
+            EXPECT_NEAR(made(29, 24).g, 0.2f, 1e-3f) << coc_px;
+        }
+    }
+}
+
 // A dark surface in front of focus whose rim covers half of a row of pixels, which have the background's
 // depth: it looks like the mean of two surfaces, one with these pixels and one without them. No line follows
 // the rim.

@@ -68,6 +68,7 @@ float ramp(float from, float to, float x) {
     const float part = clamp(x * (1 / (to - from)) - from / (to - from), 0.0, 1.0);
     return part * part * (3 - 2 * part);
 }
+const float kSharpPx = 0.38;  // discs up to this radius reach no pixel but their own (realtime_combine.glsl: disc_of)
 // The share of light at this radius that cells draw; the rest is blurred pixel by pixel.
 const float kWholePx = 3.5;  // from there on they draw all
 float blurred_share(float radius_px) { return ramp(2.0, kWholePx, radius_px); }

@@ -41,7 +41,7 @@ float of_each(float radius_px, float reach) {
 // as far apart as its reach: a circle's rim bends away from a square's side.
 vec2 disc_of(float radius) {
     const float all = abs(radius), square = all * all;
-    if (all <= 0.5) return vec2(radius < 0 ? -0.5 : 0.5, 1);
+    if (all <= kSharpPx) return vec2(radius < 0 ? -0.5 : 0.5, 1);
     if (all >= kWholePx) return vec2(radius, 0);  // cells draw all of it
     const float on_grid = max(0.25 + 0.55 * square, square - 0.25), per_px = inversesqrt(on_grid);  // kernel/model/radius_on_grid.h
     const float reach = max(on_grid * per_px - (1.0 / 24) * per_px, 0.5);
@@ -57,7 +57,7 @@ void read_pixel(ivec2 place, ivec2 pixel, ivec2 last, uint number, inout Widest 
     if (max(place.x, place.y) >= kAcross) return;
     const ivec2 there = clamp(pixel, ivec2(0), last);
     const int i = place.y * kAcross + place.x;
-    const float radius = radius_at(there), all_px = abs(radius), fine_px = all_px > 0.5 && all_px < kWholePx ? radius : 0.0;
+    const float radius = radius_at(there), all_px = abs(radius), fine_px = all_px > kSharpPx && all_px < kWholePx ? radius : 0.0;
     const vec2 disc = disc_of(radius);
     window[i] = finite_of(texelFetch(colours, there, 0));
     window_discs[i] = disc;
@@ -92,7 +92,7 @@ uint read_window() {
     return found.marks;
 }
 // Offsets of pixels that a disc reaches.
-int last_offset(float radius_px) { return min(int(ceil(max(radius_px, 0.5) - 0.5)), kRim); }
+int last_offset(float radius_px) { return radius_px > kSharpPx ? min(int(ceil(max(radius_px - 0.5, 0.1))), kRim) : 0; }
 
 // The nearest background in a direction from a pixel: farther than a near surface, and within the window. Nothing bright is
 // assumed to be hidden.

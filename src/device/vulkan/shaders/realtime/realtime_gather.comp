@@ -86,27 +86,26 @@ Sum back_over(vec2 middle, float radius, float own_px, int which) {
         const vec4 there = textureLod(cells, vec3(place, kBack), disc.level);
         const vec4 light = textureLod(cells, vec3(place, kBackLight), disc.level);
         const float reaches = back_radius(there), ratio = reaches * per_own;
-        float counts = 1;
-        bool is_more = false;
+        vec4 w;
         if (ratio < kAsBlurred) {
             const float less = ramp(kAsBlurred, kLessBlurred, ratio);
             if (there.x > 0.01) less_sum += less * there.x * vec2(1, reaches * reaches);
-            counts = which == kLess ? less : which == kAlike ? 1 - less : 0.0;
+            const float counts = which == kLess ? less : (which == kAlike ? 1 - less : 0.0);
             if (counts == 0) continue;
+            w = counts * weight_of(disc, first_of, reaches);
         } else if (ratio > kUpTo) {
             const float more = ramp(kUpTo, kMoreBlurred, ratio);
-            counts = which == kMore ? more : which == kAlike ? 1 - more : 0.0;
-            is_more = which == kAlike;
-            if (counts == 0 && !is_more) continue;
-        } else if (which != kAlike) {
-            continue;
+            if (which == kLess || (which == kMore && more == 0)) continue;
+            w = weight_of(disc, first_of, reaches);
+            if (which == kAlike) {
+                if (there.x > 0.01) sum.more_px = max(sum.more_px, reaches);
+                sum.more_area += more * w.a * there.x;
+            }
+            w *= which == kMore ? more : 1 - more;
+        } else {
+            if (which != kAlike) continue;
+            w = weight_of(disc, first_of, reaches);
         }
-        vec4 w = weight_of(disc, first_of, reaches);
-        if (is_more) {
-            if (there.x > 0.01) sum.more_px = max(sum.more_px, reaches);
-            sum.more_area += (1 - counts) * w.a * there.x;
-        }
-        if (counts < 1) w *= counts;
         sum.light += w * light;
         sum.area += w.a * there.x;
     }

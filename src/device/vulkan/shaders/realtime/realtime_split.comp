@@ -108,7 +108,7 @@ const float kApart = 0.4;  // pixels: radii that differ by less are blurred alik
 // may have the background's depth. It gets the near surface's radius if that gives most of its light; or if that is hardly
 // blurred, because the pixel is then part of a sharp outline. `place`: its own in the window; `radius`: that of its depth.
 float own_radius(ivec2 pixel, int place, vec4 light, float radius) {
-    const float kSharpPx = 2;
+    const float kOutlinePx = 2;
     const float own = brightness(light);
     vec4 bright = light, dark = light;
     vec2 found = vec2(radius);  // of the brightest nearer pixel around, and of the darkest
@@ -136,8 +136,8 @@ float own_radius(ivec2 pixel, int place, vec4 light, float radius) {
     if (share == 0) return radius;
     if (!is_dark) return brightness(near) >= 1.5 * brightness(behind) && share * brightness(near) > 0.5 * own ? near_px : radius;
     // Before wider discs the background's part of the pixel would stay as a sharp dot.
-    const float least_px = -kSharpPx;
-    return share < 1 && near_px > least_px && near_px < kSharpPx && brightness(behind) < 4 * surroundings_at(pixel).x ? near_px : radius;
+    const float least_px = -kOutlinePx;
+    return share < 1 && near_px > least_px && near_px < kOutlinePx && brightness(behind) < 4 * surroundings_at(pixel).x ? near_px : radius;
 }
 
 // Weight of this light in the mean radius over several depths. The square root of brightness keeps the sum of weights
@@ -190,7 +190,7 @@ void main() {
         own_radii[i] = with_mark(radius, mark);
         // Light in focus counts as a quarter of a pixel: `combine` may continue it behind near surfaces. In silhouettes in focus
         // it blurs the background.
-        const float all_px = abs(radius), fine_px = all_px > 0.5 ? (all_px < kWholePx ? all_px : 0.0) : (mark != 0u ? 1.0 : 0.25);
+        const float all_px = abs(radius), fine_px = all_px > kSharpPx ? (all_px < kWholePx ? all_px : 0.0) : (mark != 0u ? 1.0 : 0.25);
         range = max(range, vec3(-radius, fine_px, radius < least_shadow_px ? -at.most_px : -radius));
         if (radius < -2) {
             const float near = 0.25 * drawn;
@@ -227,7 +227,7 @@ void main() {
         vec4 mean[kLayers];
         vec3 both;
         if (side == 1 && own == 0u)
-            for (int i = 0; i < 4; ++i) quarters |= (sums_around[i].y > 0.5 ? 1u : 0u) << i | (sums_around[i].y > 0 ? 16u : 0u) << i;
+            for (int i = 0; i < 4; ++i) quarters |= (sums_around[i].y > kSharpPx ? 1u : 0u) << i | (sums_around[i].y > 0 ? 16u : 0u) << i;
         if (is_one) {
             const int a = 2 * local.y * 2 * side + 2 * local.x, b = a + 2 * side;
             for (int k = 0; k < kLayers; ++k)
