@@ -60,6 +60,28 @@ private:
                 visit(u, v, 1 / (1 + d2 * d2));
             }
     }
+    // The pixel's mixture, if something before the threshold mixes into it; null: nothing does.
+    const Mixture* mixture_before(int x, int y, float threshold_px) const {
+        const Mixture* const m = mixtures_.at(x, y);
+        return m && m->near_coc_px <= threshold_px ? m : nullptr;
+    }
+    // True if something before the threshold shows 2 x 3 pixels of itself within 2 px: depth misses no part
+    // of things so wide.
+    bool is_wide(int x, int y, float threshold_px) const {
+        constexpr int kWithinPx = 2;
+        const auto shows = [&](int left, int top, int width, int height) {
+            for (int v = top; v < top + height; ++v)
+                for (int u = left; u < left + width; ++u)
+                    if (!coc_.rect().contains(u, v) || coc_(u, v) > threshold_px) return false;
+            return true;
+        };
+        for (int dy = -kWithinPx; dy < kWithinPx; ++dy)
+            for (int dx = -kWithinPx; dx < kWithinPx; ++dx)
+                if ((dx + 1 < kWithinPx && shows(x + dx, y + dy, 3, 2)) ||
+                    (dy + 1 < kWithinPx && shows(x + dx, y + dy, 2, 3)))
+                    return true;
+        return false;
+    }
     // True if the pixel lies between two pixels that show strands. The shape of one silhouette says little
     // about the share of both strands in it.
     bool is_gap(int x, int y, float threshold_px) const {
@@ -84,14 +106,14 @@ private:
         std::size_t count = 0;
         for_each_behind(x, y, reach_px_, threshold, [&](int u, int v, float near_by) {
             const Rgba c = picture_.dim(u, v);
-            const Mixture* const at = mixtures_.at(u, v);
+            const Mixture* const at = mixture_before(u, v, threshold);
             if (at) mixed.add(c, near_by * dimmer(c));
             if (!at) add_clean(c, near_by);
             shown[count++] = {c, at, near_by, near_by * dimmer(c), at && is_gap(u, v, threshold)};
         });
         if (clean.empty())
             for_each_behind(x, y, reach_px_ + kWiderPx, threshold, [&](int u, int v, float near_by) {
-                if (!mixtures_.at(u, v)) add_clean(picture_.dim(u, v), near_by);
+                if (!mixture_before(u, v, threshold)) add_clean(picture_.dim(u, v), near_by);
             });
         const Guess first = (clean.empty() ? mixed : clean).guess();
         const float own = first.variance + least_variance(first.colour, m.errors(picture_));
@@ -99,7 +121,8 @@ private:
         const float apart2 = std::max(1e-16f, dot(across, across)) / 3;  // mean of the channels, as variances
         const float off = m.errors(picture_).times * completion_model.shape_error, shape_error2 = off * off;
         const float colour_error2 = clean.empty() ? 1e9f : (own + evenly.guess().variance) / apart2;
-        const float by_shape = colour_error2 / (colour_error2 + shape_error2);
+        const float by_shape =
+            !m.enclosed && is_wide(x, y, threshold) ? 1 : colour_error2 / (colour_error2 + shape_error2);
         const float error = by_shape * shape_error2 * apart2;
         for (const Shown& s : std::span(shown).first(count)) {
             if (!s.at) {

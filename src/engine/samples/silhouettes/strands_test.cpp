@@ -167,6 +167,47 @@ TEST(Strands, LeaveTheWallItsColourBetweenTwoBars) {
     }
 }
 
+// A bar in front of dense hair in front of a wall: no part of the hair is taken out as if it were the bar's.
+TEST(Strands, LeaveHairBehindABarItsColour) {
+    const Rgba bar{0.01f, 0.01f, 0.01f, 1};
+    Picture colour(kSize, kSize);
+    Plane coc_px(kSize, kSize);
+    for (int y = 0; y < kSize; ++y)
+        for (int x = 0; x < kSize; ++x) {
+            const bool before = y >= 30 && y < 36, on_hair = x % 2 == 0;
+            const float hair = on_hair ? 0.9f : 0.5f;
+            colour(x, y) = before ? bar : hair * kHair + (1 - hair) * kWall;
+            coc_px(x, y) = before ? -8.0f : 1.8f * float(!on_hair);
+        }
+    const Mixtures mixtures =
+        unmix_silhouettes({colour, kNoLamps}, coc_px, connections(coc_px, one_thread()), one_thread());
+    int pixels = 0;
+    mixtures.for_each_in_row(36, [&](int x, const Mixture& m) {
+        if (!m.shows_far || m.near_coc_px > -7) return;
+        EXPECT_LE(m.far_colour.g, 0.505f * (kHair.g + kWall.g)) << x;  // no brighter than any pixel
+        ++pixels;
+    });
+    EXPECT_GT(pixels, 20);
+}
+
+// A wire of 2 px before a bright sign with a dark edge: the edge does not belong to the wire, for depth shows
+// all of that.
+TEST(Strands, LeaveTheSignItsDarkEdgeBesideAWire) {
+    constexpr int kWire = 30;
+    const Rgba wire{0.02f, 0.02f, 0.02f, 1}, edge{0.06f, 0.06f, 0.06f, 1}, sign{1.5f, 1.5f, 1.5f, 1};
+    Picture colour(kSize, kSize, edge);
+    Plane coc_px(kSize, kSize, 4.7f);
+    for (int x = 0; x < kSize; ++x) {
+        for (int y = kWire; y < kWire + 2; ++y) colour(x, y) = wire, coc_px(x, y) = -0.2f;
+        for (int y = kWire + 3; y < kSize; ++y) colour(x, y) = sign;
+    }
+    const Mixtures mixtures =
+        unmix_silhouettes({colour, kNoLamps}, coc_px, connections(coc_px, one_thread()), one_thread());
+    const Mixture* const m = mixtures.at(kSize / 2, kWire + 2);
+    ASSERT_NE(m, nullptr);
+    EXPECT_LT(m->near_share, 0.5f);
+}
+
 // Two bars before a wall, with a gap of 0.3 px between them that one pixel shows in each row.
 TEST(Strands, LeaveTheWallItsColourInANarrowGap) {
     constexpr int kGap = 30;
