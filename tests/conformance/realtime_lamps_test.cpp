@@ -107,6 +107,22 @@ TEST_F(Realtime, ALampIsCutByWhatStandsBeforeFocus) {
     }
 }
 
+// The same nearly in focus, where pixels draw the lamp. In the pixel between lamp and bar its light would
+// have to cross the bar.
+TEST_F(Realtime, ASmallLampIsCutByWhatStandsBeforeFocus) {
+    for (Session& session : sessions_) {
+        Shot shot = flat(64, 48, {0.01f, 0.01f, 0.01f, 1}, 1.9f);
+        shot.colour(30, 20) = {60, 60, 60, 1};
+        const Picture open = drawn(session, shot);
+        for (int y = 0; y < 48; ++y)
+            for (int x = 32; x < 48; ++x) shot.coc_px(x, y) = -2.5f;
+        const Picture made = drawn(session, shot);
+        EXPECT_GT(open(31, 20).g, 2);
+        EXPECT_LT(made(31, 20).g, 0.1 * open(31, 20).g);
+        EXPECT_NEAR(made(29, 20).g / open(29, 20).g, 1, 0.05);
+    }
+}
+
 // A lamp before focus and a bar twice as near on its left: what passes the bar there lands on the right.
 TEST_F(Realtime, ALampBeforeFocusIsCutByWhatIsNearer) {
     const auto scene = [](bool has_bar) {

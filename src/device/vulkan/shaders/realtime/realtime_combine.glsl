@@ -174,23 +174,26 @@ void add_near(int own, float near_px, inout Fine sum) {
     // The covered area of a disc, counted pixel by pixel, is right to 4 %.
     if (sum.area > 1) sum.near *= 1 / sum.area, sum.area = 1;
 }
-// Adds the rest of it. Pixels whose discs are wider than its own are seen through its own; cells give the light of those that
-// lie far behind it.
-void add_back(int own, float radius, float back_px, inout Fine sum) {
+// Adds the rest of it. opening: the disc of the pixel's surface, or of the one behind a near surface. Pixels whose discs are
+// wider are seen through it; cells give the light of those that lie far behind it.
+void add_back(int own, float radius, vec2 opening, float back_px, inout Fine sum) {
     sum.back = window[own];
     vec4 back = vec4(0);
     float back_area = 0;
-    const vec2 opening = disc_of(max(radius, 0.0));
     const int far = min(last_offset(back_px), last_offset(max(at.aspect, 1.0) * radius));
     // A pixel blurred by more than 2 px is drawn by cells as well, so cells there show its own surface.
     const float by_cells = ramp(3.0, 2.0, radius), far_more = by_cells > 0 ? opening.x + kFarMorePx : at.most_px;
     int there = own - far * (kAcross + 1), i = (kRim - far) * (kSquare + 1);
     const int across = 2 * far + 1;
+    // On its way, light from one side crosses the place of a near surface on the other side, which hides it. Only light brighter
+    // than the pixel's own is left out, or the part of the near surface that a rim pixel shows would count more.
+    const bool is_rim = sum.area > 0;
     for (int y = -far; y <= far; ++y, there += kAcross - across, i += kSquare - across) {
         for (const int end = there + across; there < end; ++there, ++i) {
             const vec2 disc = window_discs[there];
             float area = clamp(min(disc.x, opening.x) + inside[i], 0.0, 1.0) * max(disc.y, opening.y);
             if (area == 0) continue;
+            if (is_rim && window_discs[2 * own - there].x < -0.5 * disc.x && brightness(window[there]) > 2 * brightness(sum.back)) continue;
             if (disc.x > far_more) {
                 const float wide = by_cells * blurred_share(disc.x - opening.x) * area;
                 sum.wide_area += wide;
@@ -364,7 +367,7 @@ void main() {
     const float blurred = blurred_share(abs(own_px));
     // Near light that covers the pixel completely hides the rest.
     if ((area.x < 1 && fine.area < 1) || at.view == 2u) {
-        if (is_fine) add_back(own, radius, back_px, fine);
+        if (is_fine) add_back(own, radius, own_px > 0 ? window_discs[own] : disc_of(max(radius, 0.0)), back_px, fine);
         else fine.back = finite_of(texelFetch(colours, pixel, 0));
         // A completely near pixel has no sharp part; some of its background may be known.
         base = fine.back;
