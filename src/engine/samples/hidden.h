@@ -34,12 +34,13 @@ struct LitPicture {
 // area and beyond, but its depth is that of one point:
 //     colour = near_colour + (1 - near_share) far_colour + far_light.
 struct Mixture {
-    bool shows_far = false;    // true if the depth is that of the farther surface
-    bool lights_near = false;  // true if lamps light the nearer surface
-    bool lit = false;          // true if lamps light the pixel or one beside it
-    bool thin = false;  // true if no clean pixel of the nearer surface is nearby, and the pixel is not lit
+    bool shows_far : 1 = false;    // true if the depth is that of the farther surface
+    bool lights_near : 1 = false;  // true if lamps light the nearer surface
+    bool lit : 1 = false;          // true if lamps light the pixel or one beside it
+    // True if no clean pixel of the nearer surface is nearby, and the pixel is not lit.
+    bool thin : 1 = false;
     // True if the pixel shows the farther surface, no clean pixel of which is nearby, and it is not lit.
-    bool enclosed = false;
+    bool enclosed : 1 = false;
     float near_share = 0;  // 0…1: coverage of the nearer surface
     Rgba near_colour;      // premultiplied by near_share; includes the light of lamps on this surface
     Rgba far_colour;       // colour of the farther surface if it filled the pixel; without lamps

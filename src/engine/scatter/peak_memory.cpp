@@ -62,7 +62,7 @@ std::size_t bytes_at_once(const EngineView& input, const LevelRule& rule, const 
     // Pixels at silhouettes, and pixels that hide a surface, have more samples and sources. Lights come when
     // the samples are gone.
     constexpr double kPerPixel = 39, kPerCell = 82, kPerSilhouettePixel = 305, kPerHidingPixel = 80,
-                     kGoneBeforeLights = 16, kFixed = 13 << 20, kProcess = 22 << 20, kAberrated = 28 << 20,
+                     kGoneBeforeLights = 16, kFixed = 15 << 20, kProcess = 22 << 20, kAberrated = 28 << 20,
                      kByPlace = 28 << 20;
     const bool flat =
         input.samples.deep.empty() && input.samples.plate.empty() && input.samples.holdout.empty();
@@ -79,7 +79,7 @@ std::size_t bytes_at_once(const EngineView& input, const LevelRule& rule, const 
                                          : double(2 * layers * sizeof(Rgba)) +
                                                layer_bytes_per_pixel(layers, samples_per_pixel(input));
     const double lights = std::max(0.0, double(lights_bytes(input, split)) - kGoneBeforeLights * pixels);
-    // The fit to large pictures leaves 13 MiB for an empty one, where the process takes 22.
+    // The fit to large pictures leaves 15 MiB for an empty one, where the process takes 22.
     const double fixed = std::max(kFixed, kProcess - 17 * pixels);
     const kernel::LensModel& lens = input.lens.level(0);
     const double kernels =
