@@ -79,7 +79,8 @@ std::size_t bytes_at_once(const EngineView& input, const LevelRule& rule, const 
                                          : double(2 * layers * sizeof(Rgba)) +
                                                layer_bytes_per_pixel(layers, samples_per_pixel(input));
     const double lights = std::max(0.0, double(lights_bytes(input, split)) - kGoneBeforeLights * pixels);
-    // The fit to large pictures leaves 15 MiB for an empty one, where the process takes 22.
+    // The fit to large pictures leaves 13 MiB for an empty one, where the process takes 22. Two more are for
+    // runs that take more than others.
     const double fixed = std::max(kFixed, kProcess - 17 * pixels);
     const kernel::LensModel& lens = input.lens.level(0);
     const double kernels =

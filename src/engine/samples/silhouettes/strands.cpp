@@ -65,8 +65,8 @@ private:
         const Mixture* const m = mixtures_.at(x, y);
         return m && m->near_coc_px <= threshold_px ? m : nullptr;
     }
-    // True if something before the threshold shows 2 x 3 pixels of itself within 2 px: depth misses no part
-    // of things so wide.
+    // True if something before the threshold shows 2 x 3 pixels of itself within 2 px. The depth then shows
+    // all of its pixels.
     bool is_wide(int x, int y, float threshold_px) const {
         constexpr int kWithinPx = 2;
         const auto shows = [&](int left, int top, int width, int height) {
