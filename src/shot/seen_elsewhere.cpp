@@ -274,12 +274,13 @@ private:
 constexpr int kThick = 3;  // px
 
 void drop_behind_thin_things(View<const float> depth, Workers& workers, std::vector<DeepSample>& known) {
-    const auto hides = [&](int x0, int y0, float known_m) {  // all of the square from there
+    // True if one object hides it in all of the square from there: behind a wire before a box is the box.
+    const auto hides = [&](int x0, int y0, float own_m, float known_m) {
         if (!depth.rect().contains(x0, y0) || !depth.rect().contains(x0 + kThick - 1, y0 + kThick - 1))
             return false;
         for (int y = y0; y < y0 + kThick; ++y)
             for (int x = x0; x < x0 + kThick; ++x)
-                if (!(depth(x, y) * kOneDepth < known_m)) return false;
+                if (!(depth(x, y) * kOneDepth < known_m && depth(x, y) <= kSilhouette * own_m)) return false;
         return true;
     };
     for_rows(depth.height(), workers, [&](int y) {
@@ -288,7 +289,8 @@ void drop_behind_thin_things(View<const float> depth, Workers& workers, std::vec
             if (!(s.colour.a > 0)) continue;
             bool is_thick = false;
             for (int dy = 0; dy < kThick && !is_thick; ++dy)
-                for (int dx = 0; dx < kThick && !is_thick; ++dx) is_thick = hides(x - dx, y - dy, s.depth);
+                for (int dx = 0; dx < kThick && !is_thick; ++dx)
+                    is_thick = hides(x - dx, y - dy, depth(x, y), s.depth);
             if (!is_thick) s = {};
         }
     });

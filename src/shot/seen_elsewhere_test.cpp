@@ -8,7 +8,7 @@ namespace petzval {
 namespace {
 
 constexpr int kWidth = 120, kHeight = 60;
-constexpr float kWall = 10, kCard = 2;
+constexpr float kWall = 10, kCard = 2, kWire = 1;
 constexpr double kFocal_px = 100;
 
 // Scene-linear light of the wall at a place of the world, smooth over a pixel.
@@ -22,6 +22,7 @@ struct Scene {
     double x_axis = 1, z_axis = 1;    // where the camera's +x and +z point: right and forward, or not
     float card_brightness = 0.9f;
     double half_width = 0.2;  // of the card, m
+    double wire_x = 9;        // m, of a wire before the card; 9: out of the picture
 };
 
 // A wall with light that varies, and a card before it, as a camera sees them that moves sideways.
@@ -33,11 +34,13 @@ Shot shot_of(const Scene& scene) {
     Plane depth(kWidth, kHeight);
     for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x) {
-            const double u = (x + 0.5 - kWidth / 2) / kFocal_px, v = -(y + 0.5 - kHeight / 2) / kFocal_px;
+            const double u = (x + 0.5 - kWidth / 2.0) / kFocal_px, v = -(y + 0.5 - kHeight / 2.0) / kFocal_px;
             const bool card = std::abs(u * double(kCard) + scene.camera_x - scene.card_x) < scene.half_width;
             depth(x, y) = card ? kCard : kWall;
             shot.colour(x, y) = card ? scene.card_brightness * Rgba{1, 1, 1, 0} + Rgba{0, 0, 0, 1}
                                      : wall_at(u * double(kWall) + scene.camera_x, v * double(kWall));
+            if (std::abs(u * double(kWire) + scene.camera_x - scene.wire_x) < 0.01)
+                shot.colour(x, y) = {0.1f, 0.1f, 0.1f, 1}, depth(x, y) = kWire;
         }
     shot.depth = DepthMetres{std::move(depth)};
     shot.camera.focal_length_mm = FoundNumber{kFocal_px / kWidth * 36, ""};
@@ -58,7 +61,8 @@ void expect_wall(const SeenElsewhere& found, const Scene& scene) {
     for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x)
             for (const DeepSample& s : found.behind.at(x, y)) {
-                const double u = (x + 0.5 - kWidth / 2) / kFocal_px, v = -(y + 0.5 - kHeight / 2) / kFocal_px;
+                const double u = (x + 0.5 - kWidth / 2.0) / kFocal_px,
+                             v = -(y + 0.5 - kHeight / 2.0) / kFocal_px;
                 const Rgba wall = wall_at(u * double(kWall) + scene.camera_x, v * double(kWall));
                 EXPECT_NEAR(s.colour.r, wall.r, 0.002) << x << " " << y;
                 EXPECT_NEAR(s.colour.g, wall.g, 0.002) << x << " " << y;
@@ -119,6 +123,23 @@ TEST(SeenElsewhere, WhatThreadsHideIsNotTold) {
         const Shot shot = shot_of(here), other = shot_of(right);
         EXPECT_EQ(seen(shot, {&other}).pixels > 0, half_width == 0.2) << half_width;
     }
+}
+
+TEST(SeenElsewhere, BehindAWireLiesTheCardAndNotTheWall) {
+    // The wall is known behind the card's right side. A wire hides the same part of that side in both
+    // pictures.
+    const Scene here{.wire_x = 0.07}, right{.camera_x = 0.2, .wire_x = 0.17};
+    const Shot shot = shot_of(here), other = shot_of(right);
+    const SeenElsewhere found = seen(shot, {&other});
+    const View<const float> depth = shot.depth_plane();
+    int wire = 0, beside = 0;  // pixels of the wire without the wall behind them, and others with it
+    for (int x = 0; x < kWidth; ++x)
+        if (depth(x, kHeight / 2) == kWire)
+            wire += found.behind.at(x, kHeight / 2).empty();
+        else
+            beside += !found.behind.at(x, kHeight / 2).empty();
+    EXPECT_EQ(wire, 2);
+    EXPECT_GT(beside, 3);
 }
 
 TEST(SeenElsewhere, PicturesOfOtherThingsAreLeftOutByName) {
