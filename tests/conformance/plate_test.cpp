@@ -151,5 +151,84 @@ TEST(Plate, StandsBehindAnElementWithAlpha) {
     EXPECT_NEAR(image(90, 40).g, 0.4, 0.01);
 }
 
+// A card with antialiased sides, out of focus, before a wall with two lamps. The wall's depth is that of the
+// lamps' rims too.
+struct CardBeforeWall {
+    static constexpr Rect kLeft{40, 0, 60, kHeight};  // the card's pixels, without its sides
+    Shot shot = flat(kWidth, kHeight, {}, 6), wall = flat(kWidth, kHeight, {}, 6);
+
+    CardBeforeWall() {
+        paint_rectangles(wall.colour, 21);
+        for (const auto& [x, y] : {std::pair{120, 30}, {100, 80}})
+            for (int v = y - 1; v <= y + 1; ++v)
+                for (int u = x - 1; u <= x + 1; ++u) {
+                    const bool middle = u == x && v == y;
+                    wall.colour(u, v) = (middle ? 300.0f : 60.0f) * Rgba{1, 0.9f, 0.6f, 0} + Rgba{0, 0, 0, 1};
+                    if (middle) wall.coc_px(u, v) = 5;
+                }
+        shot.colour = wall.colour.clone(), shot.coc_px = wall.coc_px.clone();
+        for (int y = 0; y < kHeight; ++y) {
+            for (int x = kLeft.x0; x < kLeft.x1; ++x) shot.colour(x, y) = card(), shot.coc_px(x, y) = -5;
+            for (const int x : {kLeft.x0 - 1, kLeft.x1})
+                shot.colour(x, y) = 0.4f * card() + 0.6f * wall.colour(x, y);
+        }
+    }
+    // Patches of the wall, as far behind the card's sides as other frames would show it.
+    void know(const Rect& patch) {
+        shot.behind =
+            DeepPicture::made_of(kWidth, kHeight, [&](int x, int y, std::vector<DeepSample>& samples) {
+                const int from_side = std::min(x - kLeft.x0, kLeft.x1 - 1 - x);
+                if (patch.contains(x, y) && from_side >= 0 && from_side < 7)
+                    samples.push_back({wall.colour(x, y), wall.coc_px(x, y), wall.coc_px(x, y)});
+            });
+    }
+    // With everything known, the sides' pixels as two surfaces.
+    Picture truth() const {
+        Shot known{shot.colour.clone(), shot.coc_px.clone(), {}};
+        known.behind =
+            DeepPicture::made_of(kWidth, kHeight, [&](int x, int y, std::vector<DeepSample>& samples) {
+                const bool side = x == kLeft.x0 - 1 || x == kLeft.x1;
+                if (!side && !kLeft.contains(x, y)) return;
+                samples.push_back({(side ? 0.4f : 1.0f) * card(), -5, -5});
+                samples.push_back({wall.colour(x, y), wall.coc_px(x, y), wall.coc_px(x, y)});
+            });
+        DefocusJob job = known.job("reference");
+        job.pupil_points = 1024;
+        return rendered(job);
+    }
+    static Rgba card() { return {0.1f, 0.3f, 0.8f, 1}; }
+};
+
+TEST(Plate, APatchChangesNothingFarFromIt) {
+    // Other frames show patches of hidden surfaces. Silhouettes, lamps and hidden surfaces elsewhere are the
+    // same with and without.
+    for (const char* engine : {"scatter", "gather"}) {
+        CardBeforeWall scene;
+        const Picture without = rendered(scene.shot.job(engine));
+        scene.know({0, 0, kWidth, 8});
+        const Picture with = rendered(scene.shot.job(engine));
+        float most = 0;
+        for (int y = 40; y < kHeight; ++y)
+            for (int x = 0; x < kWidth; ++x)
+                most = std::max(most, std::abs(with(x, y).g - without(x, y).g) / (1 + without(x, y).g));
+        EXPECT_LT(most, 1e-3) << engine;
+    }
+}
+
+TEST(Plate, PatchesBehindTheSidesOfACardAreBetterThanNone) {
+    const CardBeforeWall unknown;
+    const Picture truth = unknown.truth();
+    CardBeforeWall scene;
+    scene.know({0, 0, kWidth, kHeight});
+    for (const char* engine : {"scatter", "gather"}) {
+        const Picture without = rendered(unknown.shot.job(engine)), with = rendered(scene.shot.job(engine));
+        const Rect around = CardBeforeWall::kLeft.grown(12).intersected({0, 12, kWidth, kHeight - 12});
+        const auto score = [&](const Picture& p) {
+            return compare(truth.view().part(around), p.view().part(around))->psnr_lin;
+        };
+        EXPECT_GT(score(with), score(without) + 1) << engine;
+    }
+}
+
 }  // namespace
 }  // namespace petzval::conformance

@@ -155,6 +155,19 @@ TEST(Guessed, NothingIsMarkedWhereACleanPlateShowsIt) {
     EXPECT_EQ(largest_difference(matte, Picture(96, 64, Rgba{0, 0, 0, 1})), 0);
 }
 
+TEST(Guessed, WhatAPatchOfPlateLeavesOutIsMarked) {
+    const Picture without = view_of(a_square(), ScatterView::Guessed).image;
+    Shot shot = a_square();
+    shot.behind = DeepPicture::made_of(96, 64, [](int, int y, std::vector<DeepSample>& samples) {
+        if (y < 20) samples.push_back({kBlue, 5, 5});
+    });
+    const Picture matte = view_of(shot, ScatterView::Guessed).image;
+    for (int x = 0; x < 96; ++x) {
+        EXPECT_NEAR(matte(x, 44).r, without(x, 44).r, 0.01f) << x;
+        EXPECT_LT(matte(x, 16).r, 0.1f) << x;
+    }
+}
+
 TEST(Guessed, NothingIsMarkedWithoutFill) {
     const Picture full = view_of(a_square(), ScatterView::Guessed).image;
     Shot off = a_square();

@@ -48,6 +48,8 @@ void for_each_deep_sample(const EngineView& input, int x, int y, Emit& emit) {
 template <typename Emit>
 void for_each_sample(const EngineView& input, const FlatSurfaces& surfaces, int x, int y, const Emit& emit) {
     SeenFirst take(emit);
+    if (surfaces.plate)
+        return surfaces.visit_before_plate(input.samples.colour, input.samples.coc_px, x, y, take);
     if (input.samples.deep.empty())
         return surfaces.visit(input.samples.colour, input.samples.coc_px, x, y, 1, take);
     if (input.samples.deep_dims_itself) return for_each_deep_sample(input, x, y, take);

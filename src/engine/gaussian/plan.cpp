@@ -104,7 +104,9 @@ GaussianPlan plan_gaussian(const EngineView& input) {
     plan.view = options.view, plan.colour = input.samples.colour, plan.coc_px = input.samples.coc_px;
     if (options.style == GaussianStyle::Layered && options.view == GaussianView::Result) {
         plan_layers(input, band_px, plan);
-        plan.surfaces = preview_surfaces(input, input.options.fill != Fill::Off);
+        EngineView front = input;
+        front.samples.plate = {};
+        plan.surfaces = preview_surfaces(front, input.options.fill != Fill::Off);
         return plan;
     }
     const auto add = [&](float radius_px) {

@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "engine/lights/highlights.h"
+#include "engine/samples/behind/plate.h"
 #include "engine/samples/seen_first.h"
 #include "laws/surfaces.h"
 
@@ -47,7 +48,7 @@ BrightPoints::Row BrightPoints::row(const HighlightSplit& split, int y) const {
     const View<const Rgba> judged = frame_.samples.judged();
     Row row;
     for (int x = 0; x < frame_.width(); ++x) {
-        if (!frame_.samples.deep.empty()) {
+        if (frame_.samples.are_all_stated()) {
             find_in_samples(split, x, y, row);
             continue;
         }
@@ -55,6 +56,11 @@ BrightPoints::Row BrightPoints::row(const HighlightSplit& split, int y) const {
         if (stays < 1)
             row.add(x, y, radius_of_brightest(judged, frame_.samples.coc_px, x, y),
                     (1 - stays) * frame_.samples.colour(x, y), {stays, 1, 0});
+        const CleanPlate& plate = frame_.samples.plate;
+        if (plate.empty() || !is_before_plate(frame_.samples.coc_px(x, y), plate.coc_px(x, y))) continue;
+        const float behind = share_that_stays(split, x, y, plate.coc_px(x, y), plate.colour(x, y));
+        if (behind < 1)
+            row.add(x, y, plate.coc_px(x, y), (1 - behind) * plate.colour(x, y), {behind, 1, 0, true});
     }
     return row;
 }
@@ -100,20 +106,28 @@ BrightPoints::Rest BrightPoints::rest(int first_row, int last_row) const {
         rest.picture_ = without(input.samples.picture, begin, end, first_row);
         input.samples.picture = rest.picture_;
     }
-    if (!input.samples.deep.empty())
+    if (!input.samples.plate.empty()) {
+        CleanPlate& plate = input.samples.plate;
+        rest.plate_ = without(plate.colour, begin, end, first_row, true);
+        for (int y = 0; y < rest.plate_.height(); ++y)
+            for (int x = 0; x < rest.plate_.width(); ++x)
+                if (!plate.is_stated(x, y)) rest.plate_(x, y) = rest.colour_(x, y);
+        plate.colour = rest.plate_;
+    } else if (!input.samples.deep.empty())
         input.samples.deep = rest.samples_ = samples_without(input.samples.deep, begin, end);
     return rest;
 }
 
-Picture BrightPoints::without(View<const Rgba> picture, std::size_t begin, std::size_t end,
-                              int first_row) const {
+Picture BrightPoints::without(View<const Rgba> picture, std::size_t begin, std::size_t end, int first_row,
+                              bool of_plate) const {
     Picture rest = Picture::uninitialised(picture.width(), picture.height());
     for (int y = 0; y < picture.height(); ++y) std::copy_n(picture.row(y), picture.width(), rest.row(y));
     for (std::size_t i = begin; i < end; ++i) {
         const Taken& taken = taken_[i];
+        if (taken.on_plate != of_plate) continue;
         Rgba& at = rest(int(sprites_[i].x), int(sprites_[i].y) - first_row);
         const Rgba all =
-            frame_.samples.deep.empty() ? at : frame_.samples.deep.samples()[taken.sample].colour;
+            !frame_.samples.are_all_stated() ? at : frame_.samples.deep.samples()[taken.sample].colour;
         at = with_light(at - taken.seen * (1 - taken.stays) * all, at.a);
     }
     return rest;
@@ -141,7 +155,9 @@ std::size_t BrightPoints::bytes_beside(int rows) const {
                              frame_.samples.deep.first().size_bytes();
     return count() * (sizeof(Sprite) + sizeof(Taken)) +
            deep * std::size_t(rows) / std::size_t(frame_.height()) +
-           pixels * sizeof(Rgba) * (frame_.samples.picture.empty() ? 1 : 2);
+           pixels * sizeof(Rgba) *
+               (1 + std::size_t(!frame_.samples.picture.empty()) +
+                std::size_t(!frame_.samples.plate.empty()));
 }
 
 }  // namespace petzval::engine

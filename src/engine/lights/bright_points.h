@@ -36,7 +36,7 @@ public:
 
     private:
         friend class BrightPoints;
-        Picture colour_, picture_;
+        Picture colour_, picture_, plate_;
         CocSamples samples_;
         EngineView input_;
     };
@@ -47,6 +47,7 @@ private:
         float stays;         // share of the pixel's light, or the sample's, that is not a bright point
         float seen;          // share of the sample that the pixel shows
         std::size_t sample;  // of a picture with hidden layers: that from which it was taken
+        bool on_plate = false;
     };
     struct Row {
         std::vector<Sprite> sprites;
@@ -55,7 +56,8 @@ private:
     };
     Row row(const HighlightSplit& split, int y) const;
     void find_in_samples(const HighlightSplit& split, int x, int y, Row& row) const;
-    Picture without(View<const Rgba> picture, std::size_t begin, std::size_t end, int first_row) const;
+    Picture without(View<const Rgba> picture, std::size_t begin, std::size_t end, int first_row,
+                    bool of_plate = false) const;
     CocSamples samples_without(const CocSamplesView& deep, std::size_t begin, std::size_t end) const;
 
     const EngineView& frame_;

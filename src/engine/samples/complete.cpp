@@ -5,6 +5,7 @@
 #include "engine/samples/connectivity.h"
 #include "engine/samples/deep/deep_completed.h"
 #include "engine/samples/flat_picture.h"
+#include "engine/samples/found_surfaces.h"
 #include "engine/samples/sample_source.h"
 
 #include <algorithm>
@@ -36,16 +37,25 @@ private:
 
 CocSamples completed_before_plate(const EngineView& input, View<const unsigned char> connected,
                                   const Dim& dim) {
-    EngineView plate = input;
-    plate.samples.colour = input.samples.plate.colour, plate.samples.coc_px = input.samples.plate.coc_px;
+    const CleanPlate& plate = input.samples.plate;
+    const LitPicture picture{input.samples.colour, dim};
+    Workers& workers = *input.services.workers;
     const int height = input.height();
+    FoundSurfaces front{found_surfaces(input, connected, dim), {}};
+    unmix_before_plate(front.flat.mixtures, picture, input.samples.coc_px, plate, workers);
     CocSamples back, all;
-    flat_picture(plate, connections(plate.samples.coc_px, *input.services.workers), dim)
-        ->rows(0, height, back);
-    flat_picture(input, connected, dim, &back)->rows(0, height, all);
-    if (!input.samples.plate.all)
-        drop_out_of_sight(all, input.lens.level(0).reach_px(1), input.window.open_edges,
-                          *input.services.workers);
+    if (plate.covers) {
+        EngineView behind = input;
+        behind.samples.colour = plate.colour, behind.samples.coc_px = plate.coc_px;
+        flat_picture(behind, connections(plate.coc_px, workers), dim)->rows(0, height, back);
+        picture_before_plate(input, std::move(front), back, plate.coc_px)->rows(0, height, all);
+    } else {
+        front.lamps = found_lamps(input, front.flat, dim);
+        const Patches patches = patches_of(plate);
+        picture_before_plate(input, std::move(front), patches.samples, patches.radii_px)
+            ->rows(0, height, all);
+    }
+    if (!plate.all) drop_out_of_sight(all, input.lens.level(0).reach_px(1), input.window.open_edges, workers);
     return all;
 }
 

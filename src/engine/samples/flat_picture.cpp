@@ -1,15 +1,15 @@
 #include "engine/samples/flat_picture.h"
 
 #include "base/parallel.h"
-#include "engine/samples/behind/known_surfaces.h"
 #include "engine/samples/behind/plate.h"
+#include "engine/samples/found_surfaces.h"
 #include "engine/samples/hidden.h"
 #include "engine/samples/kept_surfaces.h"
-#include "engine/samples/lamps/lamps.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace petzval::engine {
@@ -21,18 +21,27 @@ CocSample sample(Rgba colour, float coc_px, float share) {
     return {colour, coc_px, coc_px, empty > 1e-3f ? empty : 0};
 }
 
-// The surfaces of a picture, separated and completed. In front of a plate, only the surfaces before it:
-// `back` is the completed plate.
+// The surfaces of a picture, separated and completed.
 class FlatPicture final : public CompletedPicture::Parts {
 public:
-    FlatPicture(const EngineView& input, View<const unsigned char> connected, const Dim& dim,
-                const CocSamples* back = nullptr)
-        : input_(input), back_(back) {
-        const auto find = [&] { return found(input, connected, dim, back); };
+    FlatPicture(const EngineView& input, View<const unsigned char> connected, const Dim& dim)
+        : input_(input) {
         const std::uint64_t rules =
             1 + 16 * std::uint64_t(input.options.quality) + 256 * std::uint64_t(input.options.fill);
-        found_ = back ? std::make_shared<const FoundSurfaces>(find())
-                      : kept_or_found(input, input.samples.colour, dim, rules, find);
+        found_ = kept_or_found(input, input.samples.colour, dim, rules, [&] {
+            FoundSurfaces s{found_surfaces(input, connected, dim), {}};
+            s.lamps = found_lamps(input, s.flat, dim);
+            return s;
+        });
+        count();
+    }
+    // Only what lies before the plate; `back` is the completed plate, whose picture shows back_px.
+    FlatPicture(const EngineView& input, FoundSurfaces before, const CocSamples& back,
+                View<const float> back_px)
+        : input_(input),
+          back_(&back),
+          back_px_(back_px),
+          found_(std::make_shared<const FoundSurfaces>(std::move(before))) {
         count();
     }
 
@@ -51,28 +60,6 @@ public:
     }
 
 private:
-    static FoundSurfaces found(const EngineView& input, View<const unsigned char> connected, const Dim& dim,
-                               const CocSamples* back) {
-        const LitPicture picture{input.samples.colour, dim};
-        const View<const float> coc_px = input.samples.coc_px;
-        Workers& workers = *input.services.workers;
-        // A draft searches half as much.
-        const bool draft = input.options.quality == Quality::Draft;
-        const UnmixRule unmix = draft ? UnmixRule::draft() : UnmixRule{};
-        FillRule fill = draft ? FillRule::draft() : FillRule{};
-        if (input.options.quality == Quality::Final) fill.first_directions = fill.directions;
-        FoundSurfaces s;
-        s.flat.mixtures = unmix_silhouettes(picture, coc_px, connected, workers, unmix);
-        if (input.options.fill != Fill::Off)
-            s.flat.hidden =
-                fill_hidden(picture, coc_px, connected, s.flat.mixtures, input.samples.nearest_coc_px,
-                            input.samples.farthest_coc_px, fill, dim.white, workers);
-        unmix_nearer(s.flat.mixtures, picture, s.flat.hidden, workers);
-        if (back) unmix_before_plate(s.flat.mixtures, picture, coc_px, input.samples.plate, workers);
-        if (dim && !back && input.options.fill == Fill::Full)
-            s.lamps = lamps_behind(picture, coc_px, s.flat.mixtures, workers);
-        return s;
-    }
     // Counts the samples before each row, so that rows can be written in parallel.
     void count() {
         const auto height = std::size_t(input_.height());
@@ -97,7 +84,7 @@ private:
         for (int x = 0; x < input_.width(); ++x) {
             begin(x);
             const auto emit_before_plate = [&](const CocSample& s) {
-                if (!back_ || is_before_plate(s.coc_px, input_.samples.plate.coc_px(x, y))) emit(s);
+                if (!back_ || is_before_plate(s.coc_px, back_px_(x, y))) emit(s);
             };
             visit_surfaces(x, y, emit_before_plate);
             if (lamp != lamps.end() && lamp->x == x)
@@ -110,12 +97,14 @@ private:
     void visit_surfaces(int x, int y, const Emit& emit) const {
         const View<const Rgba> colour = input_.samples.colour;
         // The plate shows through the uncovered part of the picture.
-        found_->flat.visit(colour, input_.samples.coc_px, x, y, back_ ? colour(x, y).a : 1,
+        found_->flat.visit(colour, input_.samples.coc_px, x, y,
+                           back_ && !std::isinf(back_px_(x, y)) ? colour(x, y).a : 1,
                            [&](Rgba c, float coc_px, float share) { emit(sample(c, coc_px, share)); });
     }
 
     const EngineView& input_;
-    const CocSamples* back_;
+    const CocSamples* back_ = nullptr;
+    View<const float> back_px_;  // what its picture shows
     std::shared_ptr<const FoundSurfaces> found_;
     // Number of the first sample of each row, then the number of all.
     std::vector<std::size_t> first_of_row_;
@@ -124,9 +113,14 @@ private:
 }  // namespace
 
 std::unique_ptr<CompletedPicture::Parts> flat_picture(const EngineView& input,
-                                                      View<const unsigned char> connected, const Dim& dim,
-                                                      const CocSamples* back) {
-    return std::make_unique<FlatPicture>(input, connected, dim, back);
+                                                      View<const unsigned char> connected, const Dim& dim) {
+    return std::make_unique<FlatPicture>(input, connected, dim);
+}
+
+std::unique_ptr<CompletedPicture::Parts> picture_before_plate(const EngineView& input, FoundSurfaces before,
+                                                              const CocSamples& back,
+                                                              View<const float> back_px) {
+    return std::make_unique<FlatPicture>(input, std::move(before), back, back_px);
 }
 
 void restart(CocSamples& samples, int width, int height, std::size_t count) {

@@ -1,6 +1,7 @@
 // The surfaces of a flat picture: separated silhouettes, and estimated hidden surfaces.
 #pragma once
 
+#include "engine/samples/behind/plate.h"
 #include "engine/samples/hidden.h"
 #include "engine/waist/engine.h"
 
@@ -9,9 +10,12 @@
 
 namespace petzval::engine {
 
+struct PlateSurfaces;
+
 struct FlatSurfaces {
-    Mixtures mixtures;    // pixels at silhouettes, separated
-    HiddenLayers hidden;  // what lies behind the visible surfaces
+    Mixtures mixtures;                                     // pixels at silhouettes, separated
+    HiddenLayers hidden;                                   // what lies behind the visible surfaces
+    std::shared_ptr<const PlateSurfaces> plate = nullptr;  // those of a clean plate; null: there is none
 
     // The surfaces of pixel (x, y) from the nearest, as emit(colour, coc_px, share): colour is premultiplied
     // by share, the part of the pixel that the surface takes up. share_alone: of a pixel that shows a single
@@ -21,7 +25,12 @@ struct FlatSurfaces {
                Emit&& emit) const {
         visit(*this, colour, coc_px, x, y, share_alone, emit);
     }
-    // The same; what the emitted references change is changed here. Pixels may share hidden surfaces.
+    // The same in front of the plate, then the plate's own surfaces. Requires: there is one.
+    template <typename Emit>
+    void visit_before_plate(View<const Rgba> colour, View<const float> coc_px, int x, int y,
+                            Emit&& emit) const;
+    // The same as visit(); what the emitted references change is changed here. Pixels may share hidden
+    // surfaces.
     template <typename Emit>
     void change(View<const Rgba> colour, View<const float> coc_px, int x, int y, Emit&& emit) {
         visit(*this, colour, coc_px, x, y, 1, emit);
@@ -61,6 +70,22 @@ private:
         if (m && m->far_light != Rgba{}) emit(m->far_light, m->lamp_coc_px, 0.0f);
     }
 };
+
+struct PlateSurfaces {
+    CleanPlate picture;
+    FlatSurfaces flat;  // of a plate that covers the frame
+};
+
+template <typename Emit>
+void FlatSurfaces::visit_before_plate(View<const Rgba> colour, View<const float> coc_px, int x, int y,
+                                      Emit&& emit) const {
+    const CleanPlate& behind = plate->picture;
+    if (!behind.covers && !behind.is_stated(x, y)) return visit(colour, coc_px, x, y, 1, emit);
+    visit(colour, coc_px, x, y, colour(x, y).a, [&](Rgba c, float coc, float share) {
+        if (is_before_plate(coc, behind.coc_px(x, y))) emit(c, coc, share);
+    });
+    plate->flat.visit(behind.colour, behind.coc_px, x, y, 1, emit);
+}
 
 // The surfaces of a picture as previews draw them: the estimate of hidden.h with a short search
 // (FillRule::preview). Nothing is estimated behind surfaces in focus or beyond it: rings of kernels mix the

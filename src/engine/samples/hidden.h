@@ -11,6 +11,7 @@
 #include "engine/samples/silhouettes/two_surfaces.h"
 #include "engine/samples/sparse_rows.h"
 #include "engine/samples/white.h"
+#include "engine/waist/view.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +26,11 @@ namespace petzval::engine {
 struct LitPicture {
     View<const Rgba> colour;
     Dim dim_of;  // the picture without lamps; empty if it has no lamps
-    Rgba dim(int x, int y) const { return dim_of ? dim_of(x, y, colour(x, y)) : colour(x, y); }
+    // Parts of hidden surfaces that are known (a plate that does not cover the frame); empty: none.
+    CleanPlate patches = {};
+    Rgba dim(int x, int y) const { return dim(x, y, colour(x, y)); }
+    Rgba dim(int x, int y, Rgba light) const { return dim_of ? dim_of(x, y, light) : light; }
+    bool is_patch(int x, int y) const { return !patches.empty() && patches.is_stated(x, y); }
     // Luminance that counts as black; keeps reciprocals finite.
     float black() const { return black_of(dim_of.white); }
 };

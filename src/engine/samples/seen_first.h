@@ -50,7 +50,7 @@ private:
 
     const Emit& emit_;
     float open_ = 1, in_front_px_ = -1e30f;
-    std::array<Front, 6> fronts_;  // the last occluders
+    std::array<Front, 6> fronts_{};  // the last occluders
     int count_ = 0;
 };
 

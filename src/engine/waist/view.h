@@ -34,9 +34,13 @@ struct SampleLayer {
 struct CleanPlate {
     View<const Rgba> colour;
     View<const float> coc_px;
-    bool all = false;  // also what no ray can reach: for those who look at samples
+    View<const unsigned char> is_stated;  // 0: the picture's own pixel, of which the plate says nothing
+    bool covers = true;                   // the frame; else it is patches, such as what other frames show
+    bool all = false;                     // also what no ray can reach: for those who look at samples
     bool empty() const { return coc_px.empty(); }
-    CleanPlate part(const Rect& r) const { return {colour.part(r), coc_px.part(r), all}; }
+    CleanPlate part(const Rect& r) const {
+        return {colour.part(r), coc_px.part(r), is_stated.part(r), covers, all};
+    }
 };
 
 // The rendered input, with radii instead of depths. All pictures have one size.
@@ -65,6 +69,11 @@ struct Samples {
 
     // The picture that decisions look at, so that those of all layers agree.
     View<const Rgba> judged() const { return picture.empty() ? colour : picture; }
+    // True if `deep` states every surface. With a plate the visible ones are known as in a flat picture, and
+    // those that the plate leaves out are estimated.
+    bool are_all_stated() const { return !deep.empty() && plate.empty(); }
+    // The plate, where it does not cover the frame; else empty.
+    CleanPlate patches() const { return plate.covers ? CleanPlate{} : plate; }
     // Rows y0…y1-1 alone.
     Samples rows(int y0, int y1) const;
 };

@@ -34,7 +34,15 @@ KnownSurfaces::KnownSurfaces(const LitPicture& picture, View<const float> coc, c
       radii_(known_radii(coc, mixtures, workers)),
       white_(white),
       edges_(picture, radii_, mixtures, white, edges_to_px, workers) {
+    if (!picture.patches.empty()) add_patches(workers);
     if (white_ > 0) find_lights(workers);
+}
+
+void KnownSurfaces::add_patches(Workers& workers) {
+    parallel_for(radii_.height(), workers, [&](int y) {
+        for (int x = 0; x < radii_.width(); ++x)
+            if (is_patch(x, y)) radii_(x, y) = picture_.patches.coc_px(x, y);
+    });
 }
 
 void KnownSurfaces::find_lights(Workers& workers) {

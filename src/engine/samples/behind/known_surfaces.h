@@ -42,8 +42,11 @@ public:
     // Signed radius of each pixel's visible surface; far in front of everything at silhouette pixels of the
     // nearer surface, which are not usable.
     View<const float> radii() const { return radii_; }
+    // True if what the pixel hides is known: that counts as visible.
+    bool is_patch(int x, int y) const { return picture_.is_patch(x, y); }
     // Colour of the farther surface at a silhouette, without lamps.
     Rgba colour(int x, int y) const {
+        if (is_patch(x, y)) return picture_.dim(x, y, picture_.patches.colour(x, y));
         const Mixture* m = mixtures_.at(x, y);
         return m ? m->far_colour : picture_.dim(x, y);
     }
@@ -72,6 +75,7 @@ public:
     }
 
 private:
+    void add_patches(Workers& workers);
     void find_lights(Workers& workers);
     bool lights_around(Place at) const { return lights_around_(at.x / kBlock, at.y / kBlock) != 0; }
     Rgba seen_through_blur(Place at, Direction outwards, const CutEdges::Around& edges) const;

@@ -4,6 +4,8 @@
 #include "engine/samples/silhouettes/two_surfaces.h"
 
 #include <algorithm>
+#include <atomic>
+#include <limits>
 
 namespace petzval::engine {
 namespace {
@@ -64,7 +66,10 @@ BackPicture back_picture(const StatedPicture& p, Workers& workers) {
         if (plate->first()[i + 1] - plate->first()[i] > 1) return back;
     const int width = p.colour.width(), height = p.colour.height();
     back.colour = Picture::uninitialised(width, height), back.coc_px = Plane::uninitialised(width, height);
+    back.is_stated = Image<unsigned char>(width, height);
+    std::atomic<std::size_t> covered = 0;
     parallel_for(height, workers, [&](int y) {
+        std::size_t in_row = 0;
         for (int x = 0; x < width; ++x) {
             back.colour(x, y) = p.colour(x, y), back.coc_px(x, y) = p.radius_px(p.depth(x, y));
             const auto stated = plate->at(x, y);
@@ -74,12 +79,33 @@ BackPicture back_picture(const StatedPicture& p, Workers& workers) {
             constexpr float kLeastCoverage = 0.5f;
             const bool opaque = p.colour(x, y).a >= kOpaque;
             if (opaque && colour.a < kLeastCoverage) continue;
+            ++in_row;
             if (!is_same_or_in_front(p, depth, p.depth(x, y)) && !is_before_plate(back.coc_px(x, y), radius))
                 continue;
             back.colour(x, y) = opaque ? colour * (1 / colour.a) : colour, back.coc_px(x, y) = radius;
+            back.is_stated(x, y) = 1;
         }
+        covered += in_row;
     });
+    constexpr double kCovers = 0.9;
+    back.covers = double(covered) >= kCovers * double(back.coc_px.size());
     return back;
+}
+
+Patches patches_of(const CleanPlate& plate) {
+    const int width = plate.coc_px.width(), height = plate.coc_px.height();
+    Patches patches{{}, Plane(width, height, std::numeric_limits<float>::infinity())};
+    patches.samples.width = width;
+    patches.samples.first.reserve(std::size_t(width) * std::size_t(height) + 1);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            patches.samples.first.push_back(patches.samples.samples.size());
+            if (!plate.is_stated(x, y)) continue;
+            const float coc_px = patches.radii_px(x, y) = plate.coc_px(x, y);
+            patches.samples.samples.push_back({plate.colour(x, y), coc_px, coc_px});
+        }
+    patches.samples.first.push_back(patches.samples.samples.size());
+    return patches;
 }
 
 void unmix_before_plate(Mixtures& mixtures, const LitPicture& picture, View<const float> coc_px,
@@ -89,6 +115,7 @@ void unmix_before_plate(Mixtures& mixtures, const LitPicture& picture, View<cons
     parallel_for(picture.colour.height(), workers, [&](int y) {
         for (int x = 0; x < picture.colour.width(); ++x) {
             Mixture* const at = mixtures.at(x, y);
+            if (!plate.covers && !plate.is_stated(x, y)) continue;
             if (!at || is_before_plate(at->far_coc_px, plate.coc_px(x, y))) continue;
             Mixture& m = *at;
             m.far_light = {};

@@ -15,7 +15,10 @@ namespace petzval::engine {
 struct BackPicture {
     Picture colour;
     Plane coc_px;
+    Image<unsigned char> is_stated;  // by the plate
+    bool covers = true;              // as in CleanPlate
     bool empty() const { return coc_px.empty(); }
+    CleanPlate view(bool all) const { return {colour, coc_px, is_stated, covers, all}; }
 };
 
 // Empty unless `behind` is a plate: no more than one sample in any pixel.
@@ -25,6 +28,13 @@ BackPicture back_picture(const StatedPicture& picture, Workers& workers);
 inline bool is_before_plate(float coc_px, float plate_px) {
     return laws::is_in_front(coc_px, plate_px, laws::kConnected.step_px);
 }
+
+// The plate's own samples where it is patches; radii_px is infinite between them.
+struct Patches {
+    CocSamples samples;
+    Plane radii_px;
+};
+Patches patches_of(const CleanPlate& plate);
 
 // Separates again the silhouettes in front of the plate, now that the plate gives the background's colour.
 void unmix_before_plate(Mixtures& mixtures, const LitPicture& picture, View<const float> coc_px,

@@ -29,6 +29,7 @@ void SurfaceSearch::measure_blocks(const Mixtures& mixtures, Workers& workers) {
             for (int x = 0; x < coc_.width(); ++x) {
                 Block& block = blocks_(x / kBlock, by);
                 block.farthest = std::max(block.farthest, known_.radii()(x, y));
+                if (known_.is_patch(x, y)) block.free = -kBlock;
             }
             mixtures.for_each_in_row(y,
                                      [&](int x, const Mixture&) { blocks_(x / kBlock, by).free = -kBlock; });

@@ -1,0 +1,14 @@
+// The surfaces of a flat picture as final frames draw them. Previews have their own (flat_surfaces.h).
+#pragma once
+
+#include "engine/samples/flat_surfaces.h"
+#include "engine/samples/lamps/lamps.h"
+
+namespace petzval::engine {
+
+// The surfaces of the input's picture in front of its plate, if it has one.
+FlatSurfaces found_surfaces(const EngineView& input, View<const unsigned char> connected, const Dim& dim);
+// The lamps behind them that no pixel shows.
+HiddenLamps found_lamps(const EngineView& input, const FlatSurfaces& surfaces, const Dim& dim);
+
+}  // namespace petzval::engine
