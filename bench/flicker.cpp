@@ -1,4 +1,5 @@
-// petzval_bench_flicker SHOT FOLDER WIDTH FRAMES SAMPLES ENGINE: one shot through an engine, and its truth by
+// petzval_bench_flicker SHOT FOLDER WIDTH FRAMES SAMPLES ENGINE: one shot, by name or as random:SEED-move or
+// random:SEED-temporal, through an engine, and its truth by
 // a ray tracer with SAMPLES lens samples per pixel. Frames as PNG, a contact sheet of both with the change of
 // the error between frames (grey: none), and the measures of tests/flicker/flicker.h as JSON. Without words,
 // the names of the shots.
@@ -18,21 +19,41 @@ using namespace petzval;
 using bench::fail;
 using flicker::Frames;
 
+constexpr int kEachSide = 4;  // of --temporal
+
 struct NamedShot {
-    const char* name;
+    std::string name;
     bool moves;  // the scene; else the focus
-    const char* scene;
-    double from_m, to_m, wider;
+    std::string scene;
+    double from_m = 0, to_m = 0, wider = 1;
     int temporal = 0;  // frames on each side
+    std::uint64_t seed = 1;
 };
 
-constexpr NamedShot kShots[] = {
-    {"night-pull", false, "night", 8, 3, 1},       {"table-pull", false, "table", 1.8, 0.8, 1},
-    {"fence-pull", false, "fence", 6, 1.5, 1},     {"night-move", true, "night", 0, 0, 1},
-    {"fence-move", true, "fence", 0, 0, 1},        {"post-move", true, "post", 0, 0, 1},
-    {"night-temporal", true, "night", 0, 0, 1, 4}, {"fence-temporal", true, "fence", 0, 0, 1, 4},
-    {"post-temporal", true, "post", 0, 0, 1, 4},
+const NamedShot kShots[] = {
+    {"night-pull", false, "night", 8, 3},
+    {"table-pull", false, "table", 1.8, 0.8},
+    {"fence-pull", false, "fence", 6, 1.5},
+    {"night-move", true, "night"},
+    {"fence-move", true, "fence"},
+    {"post-move", true, "post"},
+    {"night-temporal", true, "night", 0, 0, 1, kEachSide},
+    {"fence-temporal", true, "fence", 0, 0, 1, kEachSide},
+    {"post-temporal", true, "post", 0, 0, 1, kEachSide},
 };
+
+NamedShot shot_named(const std::string& name) {
+    for (const NamedShot& shot : kShots)
+        if (shot.name == name) return shot;
+    const std::string start = "random:";
+    const std::size_t dash = name.find('-');
+    const std::string kind = dash == std::string::npos ? "" : name.substr(dash);
+    if (!name.starts_with(start) || (kind != "-move" && kind != "-temporal")) fail("no shot " + name);
+    NamedShot shot{name, true, "random"};
+    shot.temporal = kind == "-temporal" ? kEachSide : 0;
+    shot.seed = std::stoull(name.substr(start.size()));
+    return shot;
+}
 
 void write(const std::string& path, View<const Rgba> picture, ToneCurve tone) {
     DevelopSettings settings;
@@ -78,26 +99,22 @@ void write_all(const std::string& folder, const std::string& name, const Frames&
 
 int main(int count, char** words) {
     if (count == 1) {
-        for (const NamedShot& shot : kShots) std::printf("%s\n", shot.name);
+        for (const NamedShot& shot : kShots) std::printf("%s\n", shot.name.c_str());
         return 0;
     }
     if (count != 7) fail("SHOT FOLDER WIDTH FRAMES SAMPLES ENGINE");
     const int width = std::atoi(words[3]), frames = std::atoi(words[4]), samples = std::atoi(words[5]);
-    for (const NamedShot& named : kShots) {
-        if (named.name != std::string(words[1])) continue;
-        const flicker::Size size{width, width * 9 / 16};
-        flicker::Shot shot = named.moves ? flicker::camera_move(named.scene, size, 0, frames, samples)
-                                         : flicker::focus_pull(named.scene, size, frames, named.from_m,
-                                                               named.to_m, named.wider, samples);
-        if (named.temporal > 0) flicker::look_around(shot, named.temporal);
-        const Frames result = flicker::defocused(shot, words[6]);
-        const flicker::Steadiness found = flicker::measure(result, shot.truth);
-        write_all(words[2], named.name, result, shot.truth);
-        std::printf(
-            "{\"change_db\": %.2f, \"worst_pop\": %.5f, \"shake\": %.4f, \"frame\": %d, \"x\": %d, \"y\": "
-            "%d}\n",
-            found.change_db, found.worst_pop, found.shake, found.frame, found.x, found.y);
-        return 0;
-    }
-    fail(std::string("no shot ") + words[1]);
+    const NamedShot named = shot_named(words[1]);
+    const flicker::Size size{width, width * 9 / 16};
+    flicker::Shot shot = named.moves ? flicker::camera_move(named.scene, size, 0, frames, samples, named.seed)
+                                     : flicker::focus_pull(named.scene, size, frames, named.from_m,
+                                                           named.to_m, named.wider, samples);
+    if (named.temporal > 0) flicker::look_around(shot, named.temporal);
+    const Frames result = flicker::defocused(shot, words[6]);
+    const flicker::Steadiness found = flicker::measure(result, shot.truth);
+    write_all(words[2], named.name, result, shot.truth);
+    std::printf(
+        "{\"error_db\": %.2f, \"change_db\": %.2f, \"worst_pop\": %.5f, \"shake\": %.4f, \"frame\": %d, "
+        "\"x\": %d, \"y\": %d}\n",
+        found.error_db, found.change_db, found.worst_pop, found.shake, found.frame, found.x, found.y);
 }

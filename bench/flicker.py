@@ -4,7 +4,8 @@ Each shot goes through --engine (`realtime`: on the first GPU). The truth is wha
 own noise counts. In focus pulls all hidden layers are given; camera moves have to guess what is hidden.
 tests/flicker/flicker.h defines the measures; the worst pop is the largest change of an 8 x 8 block between frames beyond
 the truth's. The third row of every contact sheet in build/bench/flicker draws the change of the error, eight times as
-strong. Videos are made if ffmpeg is there.
+strong. Videos are made if ffmpeg is there. `-temporal` looks at four frames on each side, as `--temporal 4` does; its
+shots, and `-move`, may also be of a seed: random:7-move, random:7-temporal.
 
 Usage: ./dev bench flicker [--shots A,B] [--engine NAME] [--width N] [--frames N] [--samples N]
 """
@@ -47,12 +48,12 @@ def main():
         if result.returncode:
             sys.exit(result.returncode)
         found = json.loads(result.stdout)
-        body.append([shot, f"{given.width} px, {given.frames} frames", f"{found['change_db']:.1f}",
+        body.append([shot, f"{given.width} px, {given.frames} frames", f"{found['error_db']:.2f}", f"{found['change_db']:.1f}",
                      f"{found['worst_pop']:.4f}", f"{found['frame']} at {found['x']},{found['y']}",
                      f"{found['shake']:.3f}"])
         print(OUT / f"{shot}_sheet.png", file=sys.stderr)
         video_of(shot)
-    print_table(["shot", "size", "change of error, dB", "worst pop", "where", "shake"], body)
+    print_table(["shot", "size", "error, dB", "change of error, dB", "worst pop", "where", "shake"], body)
     print(f"\n{given.samples} lens samples per pixel in the truth. {machine()}; command: ./dev bench flicker "
           f"{' '.join(sys.argv[1:])}".rstrip() + ".")
 

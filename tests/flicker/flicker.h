@@ -3,7 +3,8 @@
 //
 // A constant error is not seen to move. Its change is seen: d = e(t+1) - e(t), e = result - truth, in linear
 // light clipped to 0…1:
-//   change_db  -20 log10 rms(d) over all pixels and frames
+//   error_db   -20 log10 rms(e) over all pixels and frames
+//   change_db  the same of d
 //   worst_pop  the largest mean of d over 8 x 8 pixels and three channels: how much a patch changes from one
 //              frame to the next beyond the change of the truth
 //   shake      rms of the second difference in time of the result against that of the truth; 1 is as smooth
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,7 +25,7 @@
 namespace petzval::flicker {
 
 struct Steadiness {
-    double change_db = 0, worst_pop = 0, shake = 0;
+    double error_db = 0, change_db = 0, worst_pop = 0, shake = 0;
     int frame = 0, x = 0, y = 0;  // of the worst pop: from `frame` to the next, in the block at x, y
 };
 
@@ -57,7 +59,13 @@ inline Steadiness measure(const Frames& result, const Frames& truth) {
     constexpr int kBlock = 8;
     Steadiness found;
     const int width = truth[0].width(), height = truth[0].height();
-    double changes = 0, bends = 0, bends_of_truth = 0;
+    double errors = 0, changes = 0, bends = 0, bends_of_truth = 0;
+    for (std::size_t t = 0; t < truth.size(); ++t)
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) {
+                const auto r = shown(result[t](x, y)), seen = shown(truth[t](x, y));
+                errors += internal::square_sum([&](std::size_t i) { return r[i] - seen[i]; });
+            }
     for (std::size_t t = 0; t + 1 < truth.size(); ++t) {
         Plane pop((width + kBlock - 1) / kBlock, (height + kBlock - 1) / kBlock);
         for (int y = 0; y < height; ++y)
@@ -74,10 +82,11 @@ inline Steadiness measure(const Frames& result, const Frames& truth) {
         for (int y = 0; y < pop.height(); ++y)
             for (int x = 0; x < pop.width(); ++x)
                 if (std::abs(double(pop(x, y))) > found.worst_pop)
-                    found = {0, std::abs(double(pop(x, y))), 0, int(t), x * kBlock, y * kBlock};
+                    found = {0, 0, std::abs(double(pop(x, y))), 0, int(t), x * kBlock, y * kBlock};
     }
-    const double values = 3.0 * double(width) * double(height) * double(truth.size() - 1);
-    found.change_db = -10 * std::log10(changes / values);
+    const double in_frame = 3.0 * double(width) * double(height), frames = double(truth.size());
+    found.error_db = -10 * std::log10(errors / (in_frame * frames));
+    found.change_db = -10 * std::log10(changes / (in_frame * (frames - 1)));
     found.shake = std::sqrt(bends / bends_of_truth);
     return found;
 }
@@ -134,10 +143,11 @@ inline Shot focus_pull(const std::string& scene, Size size, int frames, double f
 }
 
 // Consecutive frames of a scene that moves. What nearer things hide has to be guessed.
-inline Shot camera_move(const std::string& scene, Size size, int first, int frames, int truth_samples) {
+inline Shot camera_move(const std::string& scene, Size size, int first, int frames, int truth_samples,
+                        std::uint64_t seed = 1) {
     Shot shot;
     SceneSettings settings = settings_of(size, truth_samples);
-    settings.want_truth = true;
+    settings.want_truth = true, settings.seed = seed;
     for (settings.frame = first; settings.frame < first + frames; ++settings.frame) {
         shot.pictures.push_back(std::move(render_scene(scene, settings).value()));
         shot.truth.push_back(std::move(shot.pictures.back().truth));
@@ -159,12 +169,15 @@ inline void look_around(Shot& shot, int each_side) {
         frames[t].camera.camera_from_world = picture.camera_from_world;
     }
     for (std::size_t t = 0; t < frames.size(); ++t) {
-        std::vector<const petzval::Shot*> others;
+        std::vector<OtherPicture> others;
         for (std::size_t away = 1; away <= std::size_t(each_side); ++away) {
-            if (away <= t) others.push_back(&frames[t - away]);
-            if (t + away < frames.size()) others.push_back(&frames[t + away]);
+            if (away <= t) others.push_back({&frames[t - away], -int(away)});
+            if (t + away < frames.size()) others.push_back({&frames[t + away], int(away)});
         }
-        shot.behind.push_back(std::move(seen_elsewhere(frames[t], others, *own_workers()).value().behind));
+        SeenElsewhere seen = seen_elsewhere(frames[t], others, *own_workers()).value();
+        for (const SeenElsewhere::Lamp& lamp : seen.lamps)
+            shot.pictures[t].depth_m(lamp.x, lamp.y) = lamp.depth_m;
+        shot.behind.push_back(std::move(seen.behind));
     }
 }
 
