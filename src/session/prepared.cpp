@@ -199,7 +199,8 @@ void PreparedFrame::take_samples(const FrameRequest& request, View<const float> 
     if (!all) engine::drop_out_of_sight(samples_, lens_reach_px, open_edges(request), *request.workers);
     if (!samples_.first.empty()) seen.deep = samples_;
     seen.deep_dims_itself = request.rendered.deep && !request.rendered.deep->empty();
-    if (request.look.fill != Fill::Full && seen.are_all_stated())
+    if (request.look.fill != Fill::Full && seen.are_all_stated() &&
+        (seen.plate.empty() || request.look.engine != "scatter"))
         warnings.emplace_back("job.fill has no effect where all samples of a pixel are given");
     if (request.rendered.holdout && !request.rendered.holdout->empty())
         seen.holdout = holdout_ = engine::deep_samples(*request.rendered.holdout, meaning, *request.workers);

@@ -34,11 +34,9 @@ struct Strips {
 // for flat pictures (docs/results/memory.md); others are less certain.
 double working_bytes_per_pixel(const EngineView& input) {
     constexpr double kPerPixel = 17, kPerSilhouettePixel = 260, kMost = 106;
-    constexpr double kOfPlate = 40;  // hair before itself takes 38
     constexpr double kOfLayer = 160, kOfLayerPerSilhouettePixel = 420;
     const Samples& samples = input.samples;
     const bool flat = samples.deep.empty() && samples.plate.empty() && samples.holdout.empty();
-    if (!samples.plate.empty()) return kMost + kOfPlate;
     if (!flat || input.services.max_memory_bytes == 0) return kMost;
     const double at = silhouettes_of(samples.coc_px, *input.services.workers).at;
     const double flat_bytes = kPerPixel + kPerSilhouettePixel * at;

@@ -106,7 +106,7 @@ BrightPoints::Rest BrightPoints::rest(int first_row, int last_row) const {
         rest.picture_ = without(input.samples.picture, begin, end, first_row);
         input.samples.picture = rest.picture_;
     }
-    if (!input.samples.plate.empty()) {
+    if (!input.samples.patches().empty()) {
         CleanPlate& plate = input.samples.plate;
         rest.plate_ = without(plate.colour, begin, end, first_row, true);
         for (int y = 0; y < rest.plate_.height(); ++y)

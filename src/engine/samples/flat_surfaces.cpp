@@ -26,8 +26,9 @@ Dim without_lamps(float white) {
     return {reduced, least, white};
 }
 
-FlatSurfaces surfaces_of(const Samples& samples, const LitPicture& picture, float white, bool fills,
-                         Workers& workers) {
+FlatSurfaces surfaces_of(const EngineView& input, const LitPicture& picture, float white, bool fills) {
+    const Samples& samples = input.samples;
+    Workers& workers = *input.services.workers;
     const Image<unsigned char> connected = connections(samples.coc_px, workers);
     const FillRule rule = FillRule::preview();
     FlatSurfaces found;
@@ -37,17 +38,6 @@ FlatSurfaces surfaces_of(const Samples& samples, const LitPicture& picture, floa
                                    samples.farthest_coc_px, rule, white, workers);
     unmix_nearer(found.mixtures, picture, found.hidden, workers);
     return found;
-}
-
-std::shared_ptr<const PlateSurfaces> plate_surfaces(const Samples& samples, FlatSurfaces& front,
-                                                    const LitPicture& picture, float white, bool fills,
-                                                    Workers& workers) {
-    unmix_before_plate(front.mixtures, picture, samples.coc_px, samples.plate, workers);
-    if (!samples.plate.covers) return std::make_shared<const PlateSurfaces>(PlateSurfaces{samples.plate, {}});
-    Samples behind = samples;
-    behind.colour = samples.plate.colour, behind.coc_px = samples.plate.coc_px;
-    return std::make_shared<const PlateSurfaces>(PlateSurfaces{
-        samples.plate, surfaces_of(behind, {behind.colour, picture.dim_of}, white, fills, workers)});
 }
 
 // Gives the surfaces of a picture the light of its layer.
@@ -107,12 +97,13 @@ std::shared_ptr<const FlatSurfaces> preview_surfaces(const EngineView& input, bo
     const float white = white_of(input.all().samples.judged(), *input.services.workers);
     const Dim dim = white > 0 ? without_lamps(white) : Dim{};
     const LitPicture picture{colour, dim, input.samples.patches()};
-    Workers& workers = *input.services.workers;
-    const auto find = [&] { return surfaces_of(input.samples, picture, white, fills, workers); };
-    if (!input.samples.plate.empty()) {
-        auto before_plate = std::make_shared<FlatSurfaces>(find());
-        before_plate->plate = plate_surfaces(input.samples, *before_plate, picture, white, fills, workers);
-        return before_plate;
+    const auto find = [&] { return surfaces_of(input, picture, white, fills); };
+    if (!picture.patches.empty()) {
+        auto with_patches = std::make_shared<FlatSurfaces>(find());
+        with_patches->patches = picture.patches;
+        unmix_before_plate(with_patches->mixtures, picture, input.samples.coc_px, picture.patches,
+                           *input.services.workers);
+        return with_patches;
     }
     if (!input.samples.picture.empty()) {
         auto of_layer = std::make_shared<FlatSurfaces>(find());

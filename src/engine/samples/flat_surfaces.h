@@ -10,12 +10,10 @@
 
 namespace petzval::engine {
 
-struct PlateSurfaces;
-
 struct FlatSurfaces {
-    Mixtures mixtures;                                     // pixels at silhouettes, separated
-    HiddenLayers hidden;                                   // what lies behind the visible surfaces
-    std::shared_ptr<const PlateSurfaces> plate = nullptr;  // those of a clean plate; null: there is none
+    Mixtures mixtures;        // pixels at silhouettes, separated
+    HiddenLayers hidden;      // what lies behind the visible surfaces
+    CleanPlate patches = {};  // replace what is hidden in their pixels; empty: there are none
 
     // The surfaces of pixel (x, y) from the nearest, as emit(colour, coc_px, share): colour is premultiplied
     // by share, the part of the pixel that the surface takes up. share_alone: of a pixel that shows a single
@@ -25,10 +23,17 @@ struct FlatSurfaces {
                Emit&& emit) const {
         visit(*this, colour, coc_px, x, y, share_alone, emit);
     }
-    // The same in front of the plate, then the plate's own surfaces. Requires: there is one.
+    // The same with the patches.
     template <typename Emit>
-    void visit_before_plate(View<const Rgba> colour, View<const float> coc_px, int x, int y,
-                            Emit&& emit) const;
+    void visit_with_patches(View<const Rgba> colour, View<const float> coc_px, int x, int y,
+                            Emit&& emit) const {
+        if (patches.empty() || !patches.is_stated(x, y)) return visit(colour, coc_px, x, y, 1, emit);
+        const float patch_px = patches.coc_px(x, y);
+        visit(colour, coc_px, x, y, colour(x, y).a, [&](Rgba c, float coc, float share) {
+            if (is_before_plate(coc, patch_px)) emit(c, coc, share);
+        });
+        emit(patches.colour(x, y), patch_px, 1.0f);
+    }
     // The same as visit(); what the emitted references change is changed here. Pixels may share hidden
     // surfaces.
     template <typename Emit>
@@ -70,22 +75,6 @@ private:
         if (m && m->far_light != Rgba{}) emit(m->far_light, m->lamp_coc_px, 0.0f);
     }
 };
-
-struct PlateSurfaces {
-    CleanPlate picture;
-    FlatSurfaces flat;  // of a plate that covers the frame
-};
-
-template <typename Emit>
-void FlatSurfaces::visit_before_plate(View<const Rgba> colour, View<const float> coc_px, int x, int y,
-                                      Emit&& emit) const {
-    const CleanPlate& behind = plate->picture;
-    if (!behind.covers && !behind.is_stated(x, y)) return visit(colour, coc_px, x, y, 1, emit);
-    visit(colour, coc_px, x, y, colour(x, y).a, [&](Rgba c, float coc, float share) {
-        if (is_before_plate(coc, behind.coc_px(x, y))) emit(c, coc, share);
-    });
-    plate->flat.visit(behind.colour, behind.coc_px, x, y, 1, emit);
-}
 
 // The surfaces of a picture as previews draw them: the estimate of hidden.h with a short search
 // (FillRule::preview). Nothing is estimated behind surfaces in focus or beyond it: rings of kernels mix the

@@ -69,9 +69,11 @@ struct Samples {
 
     // The picture that decisions look at, so that those of all layers agree.
     View<const Rgba> judged() const { return picture.empty() ? colour : picture; }
-    // True if `deep` states every surface. With a plate the visible ones are known as in a flat picture, and
-    // those that the plate leaves out are estimated.
-    bool are_all_stated() const { return !deep.empty() && plate.empty(); }
+    // True if `deep` states every surface: of a deep file, of hidden layers, of a plate that covers the
+    // frame.
+    bool are_all_stated() const { return !deep.empty() && (plate.empty() || plate.covers); }
+    // True if `deep` states the visible surfaces too, apart in every pixel; a plate leaves them as they are.
+    bool are_visible_stated() const { return !deep.empty() && plate.empty(); }
     // The plate, where it does not cover the frame; else empty.
     CleanPlate patches() const { return plate.covers ? CleanPlate{} : plate; }
     // Rows y0…y1-1 alone.
