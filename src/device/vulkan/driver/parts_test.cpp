@@ -42,7 +42,7 @@ TEST(RealtimeWork, IsThatOfTheLampsThatReachATile) {
     std::vector<std::int32_t> boxes;
     for (int tile = 0; tile < 20; ++tile) {
         const bool is_reached = tile % 5 >= 3 && tile / 5 >= 1;
-        const std::array box = is_reached ? std::array{4, 3, 4, 3} : std::array{5, 4, -1, -1};
+        const std::array box = is_reached ? std::array{4, 3, 1, 1} : std::array{5, 4, 0, 0};
         boxes.insert(boxes.end(), box.begin(), box.end());
     }
     kept[76] = 0x80000001, kept[77] = 4;

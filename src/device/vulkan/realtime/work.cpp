@@ -34,9 +34,9 @@ void RealtimeWork::take_lamps(const std::uint32_t* kept, const std::int32_t* box
                                    std::uint64_t(std::popcount(cells[0]) + std::popcount(cells[1]));
         }
     for (std::size_t tile = 0; tile < of_lamps_.size(); ++tile, boxes += 4) {
-        if (boxes[2] < boxes[0]) continue;
-        const auto x0 = std::size_t(boxes[0]), y0 = std::size_t(boxes[1]), x1 = std::size_t(boxes[2]) + 1,
-                   y1 = std::size_t(boxes[3]) + 1;
+        if (boxes[3] == 0) continue;
+        const auto x0 = std::size_t(boxes[0]), y0 = std::size_t(boxes[1]);
+        const std::size_t x1 = x0 + std::size_t(boxes[2]), y1 = y0 + std::size_t(boxes[3] / boxes[2]);
         const std::uint64_t lamps =
             sums[y1 * across + x1] - sums[y0 * across + x1] - sums[y1 * across + x0] + sums[y0 * across + x0];
         most_lamps_ = std::max(most_lamps_, lamps);

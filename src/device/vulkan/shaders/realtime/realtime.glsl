@@ -21,6 +21,7 @@ vec2 zone_place(vec2 pixel, vec2 zones) { return clamp(at.zone_scale * pixel + a
 const float kMostLight = 60000;  // that cells hold
 const int kTile = 16;            // pixels
 const int kShadowSteps = 6;      // on the way of a lamp's light to a pixel
+const float kShadowStep = 1 / float(kShadowSteps);
 const int kLayers = 4, kBackLight = 0, kBack = 1, kNearLight = 2, kNear = 3;  // of cells
 // Stored for the finest level only: signed radii of the cell's four pixels.
 const int kRadii = 4;
@@ -47,10 +48,11 @@ CellLamp unpacked_lamp(uvec4 kept) {
 }
 
 vec4 light_of(vec4 colour) { return clamp(colour, vec4(0), vec4(kMostLight)); }
-// The colour if it is finite: a host's picture may hold infinity, which would spread.
+// The colour if it is finite: a host's picture may hold infinity, which would spread. A sum is finite if its parts are.
 vec4 finite_of(vec4 colour) {
+    const float all = abs(colour.r) + abs(colour.g) + abs(colour.b) + abs(colour.a);
+    if ((floatBitsToUint(all) & 0x7fffffffu) < 0x7f800000u) return colour;
     const uvec4 bits = floatBitsToUint(colour) & 0x7fffffffu;
-    if (max(max(bits.x, bits.y), max(bits.z, bits.w)) < 0x7f800000u) return colour;
     return mix(clamp(colour, vec4(-kMostLight), vec4(kMostLight)), vec4(0), greaterThan(bits, uvec4(0x7f800000u)));
 }
 float brightness(vec4 light) { return light.r + light.g + light.b; }

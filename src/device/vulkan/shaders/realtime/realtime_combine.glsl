@@ -53,11 +53,10 @@ struct Widest {
     float farthest;
     uint marks;  // a bit for each silhouette pixel that is hardly blurred, and four bits later for each rim pixel
 };
-void read_pixel(ivec2 place, ivec2 pixel, ivec2 last, uint number, inout Widest found) {
-    if (max(place.x, place.y) >= kAcross) return;
-    const ivec2 there = clamp(pixel, ivec2(0), last);
+void read_pixel(bool is_inside, ivec2 place, ivec2 there, float radius, uint number, inout Widest found) {
+    if (!is_inside) return;
     const int i = place.y * kAcross + place.x;
-    const float radius = radius_at(there), all_px = abs(radius), fine_px = all_px > kSharpPx && all_px < kWholePx ? radius : 0.0;
+    const float all_px = abs(radius), fine_px = all_px > kSharpPx && all_px < kWholePx ? radius : 0.0;
     const vec2 disc = disc_of(radius);
     window[i] = finite_of(texelFetch(colours, there, 0));
     window_discs[i] = disc;
@@ -70,22 +69,29 @@ void read_pixel(ivec2 place, ivec2 pixel, ivec2 last, uint number, inout Widest 
             found.marks |= 1u << number;
     }
 }
+// The first pixel that an invocation reads, in the window. Its pixels are one cell; those on the rim have some beyond the window.
+ivec2 first_place() { return 2 * ivec2(gl_LocalInvocationID.xy) - 1; }
 // Reads the window; all invocations of the group call it together. Four calls and no loop, so that the reads overlap.
 // Returns the marks of this invocation's pixels.
 uint read_window() {
     const int own = int(gl_LocalInvocationIndex);
-    const ivec2 local = ivec2(gl_LocalInvocationID.xy), pixel = ivec2(gl_GlobalInvocationID.xy) - kRim, last = at.size - 1;
+    const ivec2 local = ivec2(gl_LocalInvocationID.xy), place = first_place(), last = at.size - 1;
+    const ivec2 pixel = 8 * ivec2(gl_WorkGroupID.xy) - kRim + place, first = clamp(pixel, ivec2(0), last), second = clamp(pixel + 1, ivec2(0), last);
+    const vec4 radii = texelFetch(cells, ivec3(first >> 1, kRadii), 0);  // also of pixels beyond the picture, which are its border
+    const ivec2 from = first & 1, to = second & 1;
     if (own < 3) widest_px[own] = 0u;
     if (own == 3) farthest_px = floatBitsToUint(at.most_px);
     if (own == 4) marks_found = 0u;
+    const bvec2 has_first = greaterThanEqual(place, ivec2(0)), has_second = lessThan(place, ivec2(kAcross - 1));
     Widest found = Widest(vec3(0), at.most_px, 0u);
-    read_pixel(local, pixel, last, 0u, found);
-    read_pixel(local + ivec2(8, 0), pixel + ivec2(8, 0), last, 1u, found);
-    read_pixel(local + ivec2(0, 8), pixel + ivec2(0, 8), last, 2u, found);
-    read_pixel(local + 8, pixel + 8, last, 3u, found);
+    read_pixel(has_first.x && has_first.y, place, first, radii[2 * from.y + from.x], 0u, found);
+    read_pixel(has_second.x && has_first.y, place + ivec2(1, 0), ivec2(second.x, first.y), radii[2 * from.y + to.x], 1u, found);
+    read_pixel(has_first.x && has_second.y, place + ivec2(0, 1), ivec2(first.x, second.y), radii[2 * to.y + from.x], 2u, found);
+    read_pixel(has_second.x && has_second.y, place + 1, second, radii[2 * to.y + to.x], 3u, found);
     barrier();
-    for (int i = 0; i < 3; ++i)
-        if (found.widest[i] > 0) atomicMax(widest_px[i], floatBitsToUint(found.widest[i]));
+    if (found.widest.x > 0) atomicMax(widest_px[0], floatBitsToUint(found.widest.x));
+    if (found.widest.y > 0) atomicMax(widest_px[1], floatBitsToUint(found.widest.y));
+    if (found.widest.z > 0) atomicMax(widest_px[2], floatBitsToUint(found.widest.z));
     if (found.marks != 0u) atomicOr(marks_found, found.marks);
     atomicMin(farthest_px, floatBitsToUint(max(found.farthest, 0.0)));
     if (max(local.x, local.y) < kSquare) inside[local.y * kSquare + local.x] = 0.5 - length(vec2(local.x - kRim, float(local.y - kRim) / at.aspect));
@@ -222,15 +228,17 @@ void add_back(int own, float radius, vec2 opening, float back_px, inout Fine sum
 vec4 back_at(ivec2 pixel, float radius, out float is_known) {
     const vec2 place = (vec2(pixel) + 0.5) * 0.5 - 0.5, low = floor(place);
     // Four cells have the taps of four sets: a wide disc shows the mean of them, also one behind a near surface.
-    const vec2 share = mix(place - low, vec2(0.5), ramp(16.0, 40.0, abs(radius)));
+    vec2 share = place - low;
+    if (abs(radius) > 16) share = mix(share, vec2(0.5), ramp(16.0, 40.0, abs(radius)));
     const vec3 middle = vec3((low + 1) * texel, kGatheredArea);
     const vec4 known = textureGather(gathered, middle, 2), radii = textureGather(gathered, middle, 1);
-    const float own = gathered_radius(radius);
-    const bool is_alike = radius <= 0 || min(min(own, min(radii.x, radii.y)), min(radii.z, radii.w)) >= 2.5;
+    const float kAlikePx = 2.5;  // gathered
+    const bool is_alike = radius <= 0 || (radius * radius >= kAlikePx * kAlikePx + 4 && min(min(radii.x, radii.y), min(radii.z, radii.w)) >= kAlikePx);
     is_known = 1;
-    if (is_alike && known == vec4(1)) return textureLod(gathered, vec3((low + 0.5 + share) * texel, kGatheredBack), 0);
+    if (is_alike && known.x + known.y + known.z + known.w == 4) return textureLod(gathered, vec3((low + 0.5 + share) * texel, kGatheredBack), 0);
     vec4 w = vec4(1 - share.x, share.xx, 1 - share.x) * vec4(share.yy, 1 - share.yy) * known;
     if (!is_alike) {
+        const float own = gathered_radius(radius);
         const vec4 alike = exp2(-4 / (1 + 0.5 * radius) * abs(radii - own));
         // If neither the pixel nor the cell is nearly sharp, both know the light between them.
         const vec4 blurred = clamp((min(vec4(own), radii) - 1) * (1 / 1.5), vec4(0), vec4(1));
@@ -240,9 +248,9 @@ vec4 back_at(ivec2 pixel, float radius, out float is_known) {
     is_known = weights > 1e-6 ? 1.0 : 0.0;
     if (weights <= 1e-6) return vec4(0);
     vec4 sum = vec4(0);
-    const ivec2 cell = ivec2(low), last = 8 * at.tiles - 1;
+    const ivec2 last = 8 * at.tiles - 1, first = max(ivec2(low), ivec2(0)), second = min(ivec2(low) + 1, last);
     for (int i = 0; i < 4; ++i)  // as textureGather() has them
-        if (w[i] > 0) sum += w[i] * texelFetch(gathered, ivec3(clamp(cell + ivec2(i == 1 || i == 2, i < 2), ivec2(0), last), kGatheredBack), 0);
+        if (w[i] > 0) sum += w[i] * texelFetch(gathered, ivec3(i == 1 || i == 2 ? second.x : first.x, i < 2 ? second.y : first.y, kGatheredBack), 0);
     return sum * (1 / weights);
 }
 
@@ -296,7 +304,7 @@ void take_near_part(ivec2 place) {
 void divide_pixels(uint marks) {
     for (uint left = marks; left != 0u; left &= left - 1u) {
         const int number = findLSB(left);
-        const ivec2 place = ivec2(gl_LocalInvocationID.xy) + 8 * ivec2(number & 1, number >> 1 & 1);
+        const ivec2 place = first_place() + ivec2(number & 1, number >> 1 & 1);
         if (number < 4) blur_background_in(place);
         else take_near_part(place);
     }
@@ -340,12 +348,12 @@ void main() {
     // A group runs as a whole or not at all, because its invocations look for lamps together.
     const ivec2 place_of_group = ivec2(gl_GlobalInvocationID.xy), pixel = min(place_of_group, at.size - 1);
     const ivec2 tile = ivec2(gl_WorkGroupID.xy) >> 1;
-    texel = 1 / vec2(8 * at.tiles);
+    texel = 0.125 / vec2(at.tiles);
     float radius = radius_at(pixel);
     const float own_px = radius;
     const vec4 reaches = reach[tile.y * at.tiles.x + tile.x];
     const int quarter = int(2u * (gl_WorkGroupID.y & 1u) + (gl_WorkGroupID.x & 1u));
-    const bool has_near = reaches.z > 2, is_fine = (uint(reaches.y) >> ((has_near ? 4 : 0) + quarter) & 1u) != 0u;
+    const bool has_near = reaches.z > 2, is_fine = (uint(reaches.y) >> quarter & 1u) != 0u;
     int own = 0;  // the pixel in the window
     Fine fine = Fine(vec4(0), vec4(0), 0, 0, 0);
     float back_px = 0;
@@ -357,7 +365,7 @@ void main() {
         const float near_px = uintBitsToFloat(widest_px[1]), nearest = uintBitsToFloat(widest_px[2]);
         if (marks_found != 0u) divide_pixels(marks);
         if (has_near && nearest >= kWholePx && uintBitsToFloat(farthest_px) < 0.8 * nearest) radius = reveal(own, radius);
-        add_near(own, near_px, fine);
+        if (nearest > 0) add_near(own, near_px, fine);
     }
     vec2 area = vec2(0);
     vec4 near = vec4(0);

@@ -69,6 +69,7 @@ vec2 slope_of(ivec2 cell, int layer, float own_px) {
 // Sums taps over a disc: of light as blurred as a cell of `own_px`, of light blurred far less, or of light blurred far
 // more; and the largest radii of the last two.
 const float kLessBlurred = 0.4, kAsBlurred = 0.7, kUpTo = 1.2, kMoreBlurred = 1.7;  // of the cell's radius
+const float kSame = 0.98;  // of the disc's radius
 const int kAlike = 0, kLess = 1, kMore = 2;
 struct Sum {
     vec4 light;
@@ -81,12 +82,23 @@ Sum back_over(vec2 middle, float radius, float own_px, int which) {
     Sum sum = Sum(vec4(0), 0, 0, 0, 0);
     vec2 less_sum = vec2(0);
     int first_of = disc.weights + far_side;
+    // Most light is about as blurred as the cell: from kSame of the disc's radius to kUpTo of the cell's it has the weight of
+    // the disc's radius, and needs no division.
+    const float low_px = kSame * radius, alike_px = 0.5 * (kUpTo * own_px + low_px), within_px = alike_px - low_px;
+    const int own_weight = int(disc.most);
     for (int i = disc.tap; i < disc.end; ++i, first_of += kShares) {
         const vec2 place = disc.middle + lens[i].xy * disc.scale;
         const vec4 there = textureLod(cells, vec3(place, kBack), disc.level);
         const vec4 light = textureLod(cells, vec3(place, kBackLight), disc.level);
-        const float reaches = back_radius(there), ratio = reaches * per_own;
         vec4 w;
+        if (which == kAlike && abs(there.y - alike_px * there.w) <= within_px * there.w) {
+            w = lens[first_of + own_weight];
+            sum.light += w * light;
+            sum.area += w.a * there.x;
+            continue;
+        }
+        // Empty places were left above.
+        const float reaches = which == kAlike ? there.y / there.w : back_radius(there), ratio = reaches * per_own;
         if (ratio < kAsBlurred) {
             const float less = ramp(kAsBlurred, kLessBlurred, ratio);
             if (there.x > 0.01) less_sum += less * there.x * vec2(1, reaches * reaches);
@@ -211,15 +223,17 @@ NearSum near_over(vec2 middle, float radius, float most_px, bool is_less) {
         const vec3 there = textureLod(cells, vec3(place, kNear), disc.level).xyz;
         if (there.x < kLeastArea) continue;
         const float reaches = near_radius(there), ratio = reaches * per_most;
-        float counts = is_less ? 0.0 : 1.0;
+        vec4 w;
         if (ratio < kNearLess) {
             const float less = ramp(kNearLess, kNearLeast, ratio);
             if (tap.z * kMostShare < (ratio + 0.15) * disc.most) less_sum += less * there.x * vec2(1, reaches * reaches);
-            counts = is_less ? less : 1 - less;
+            const float counts = is_less ? less : 1 - less;
+            if (counts == 0) continue;
+            w = counts * weight_of(disc, first_of, reaches);
+        } else {
+            if (is_less) continue;
+            w = weight_of(disc, first_of, reaches);
         }
-        if (counts == 0) continue;
-        vec4 w = weight_of(disc, first_of, reaches);
-        if (counts < 1) w *= counts;
         if (w.a == 0) continue;
         sum.light += w * textureLod(cells, vec3(place, kNearLight), disc.level);
         const float area = w.a * there.x;
@@ -253,7 +267,7 @@ void main() {
     first_tap = 1 + taps * set;
     first_grid = 1 + kSpirals * taps;
     far_side = kShares * all_taps_of(head);
-    texel = 1 / vec2(8 * at.tiles);
+    texel = 0.125 / vec2(at.tiles);
     farthest = farthest_place(texel);
     // Each set takes the nearest zone of another fraction, so that the mean of the four interpolates between zones.
     const vec2 fraction = (vec2(set, (set & 1) * 2 + (set >> 1)) + 0.5) / float(kSpirals);
@@ -276,7 +290,7 @@ void main() {
     if (area.x >= kCovers) {
         is_known = 0;
     } else if (has) {
-        const vec4 own_light = texelFetch(cells, ivec3(cell, kBackLight), 0) / own.x;
+        const vec4 own_light = texelFetch(cells, ivec3(cell, kBackLight), 0) * (1 / own.x);
         float seen;
         back = back_radius(own) < 0.5 ? own_light : back_of(middle, own_light, back_radius(own), slope_of(cell, kBack, back_radius(own)), seen);
     } else {

@@ -66,20 +66,20 @@ float radius_of_part(float of_lamp, float share) {
     return of_lamp < 0 ? -radius : radius;
 }
 
-// The light of a lamp in this pixel. A lamp stands out from the surfaces around it. It also has at least a sixteenth of the
-// light that all discs of its radius bring to a pixel, so about sixteen lamps at most reach a pixel. Taps show all other
-// light. radius: that of the pixel; that of a small lamp replaces it.
-vec4 lamp_of(ivec2 pixel, vec4 light, float least, inout float radius) {
+// The share of this pixel's light that is a lamp's. A lamp stands out from the surfaces around it. It also has at least a
+// sixteenth of the light that all discs of its radius bring to a pixel, so about sixteen lamps at most reach a pixel. Taps show
+// all other light. radius: that of the pixel; that of a small lamp replaces it.
+float lamp_of(ivec2 pixel, vec4 light, float least, inout float radius) {
     const float kStandsOut = 1.0 / 16;
     const float own = brightness(light);
-    if (own <= least) return vec4(0);  // most pixels, before any interpolation
+    if (own <= least) return 0;  // most pixels, before any interpolation
     const vec2 around = surroundings_at(pixel);
     float floor_light = 4 * around.x;
-    if (own <= floor_light) return vec4(0);
+    if (own <= floor_light) return 0;
     float most, all;
     const float of_lamp = radius_of_brightest(pixel - 1, 3, most, all), wide = abs(of_lamp), disc = max(3.14159 * wide * wide, 1.0);
     floor_light += max(kStandsOut * disc * own / all, 2.0) * mean_over(wide, around.y);
     const float stands_out = smoothstep(1.0, 2.0, own / floor_light);
     radius = mix(radius, radius_of_part(of_lamp, own / most), stands_out * (1 - blurred_share(max(wide, abs(radius)))));
-    return vec4(light.rgb * (1 - around.x / own) * stands_out, 0);
+    return (1 - around.x / own) * stands_out;
 }

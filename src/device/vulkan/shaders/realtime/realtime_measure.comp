@@ -9,16 +9,17 @@ layout(std430, binding = 1) writeonly buffer Surroundings { vec2 surroundings[];
 
 shared vec2 sums[64];
 
+float brightness_at(ivec2 pixel) {
+    const vec3 light = clamp(texelFetch(colours, pixel, 0).rgb, vec3(0), vec3(kMostLight));
+    return light.r + light.g + light.b;
+}
+
 void main() {
     const uint own = gl_LocalInvocationIndex;
-    const ivec2 first = 2 * ivec2(gl_GlobalInvocationID.xy), last = at.size - 1;
-    vec2 sum = vec2(0);
-    for (int i = 0; i < 4; ++i) {
-        const ivec2 pixel = min(first + ivec2(i & 1, i >> 1), last);
-        const float light = brightness(light_of(texelFetch(colours, pixel, 0)));
-        sum += vec2(sqrt(light), light);
-    }
-    sums[own] = sum;
+    const ivec2 last = at.size - 1, first = min(2 * ivec2(gl_GlobalInvocationID.xy), last), second = min(2 * ivec2(gl_GlobalInvocationID.xy) + 1, last);
+    const vec4 light = vec4(brightness_at(first), brightness_at(ivec2(second.x, first.y)), brightness_at(ivec2(first.x, second.y)), brightness_at(second));
+    const vec4 roots = sqrt(light);
+    sums[own] = vec2(roots.x + roots.y + roots.z + roots.w, light.x + light.y + light.z + light.w);
     for (uint half_way = 32u; half_way > 0u; half_way >>= 1) {
         barrier();
         if (own < half_way) sums[own] += sums[own + half_way];

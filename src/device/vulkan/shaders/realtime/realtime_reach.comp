@@ -7,9 +7,11 @@ layout(local_size_x = 64) in;
 // Largest radius in front of focus; a bit for each quarter with pixels blurred pixel by pixel, then one for each with these or
 // with light in focus; 0; the smallest signed radius that may hide a lamp behind focus (realtime_sprites.glsl: seen).
 layout(std430, binding = 0) readonly buffer Tiles { vec4 tiles[]; };
-layout(std430, binding = 1) writeonly buffer Reach { vec4 reach[]; };  // the first two as they reach a tile, the others of the tile alone
+// The largest radius as it reaches a tile; a bit for each quarter of the tile that pixels reach which `combine` reads one by one;
+// the first and last of `tiles` of the tile alone.
+layout(std430, binding = 1) writeonly buffer Reach { vec4 reach[]; };
 layout(std430, binding = 2) readonly buffer Lamps { uvec4 lamps[]; };
-layout(std430, binding = 3) writeonly buffer Boxes { ivec4 boxes[]; };  // first and last column and row; empty: last < first
+layout(std430, binding = 3) writeonly buffer Boxes { ivec4 boxes[]; };  // first column and row, columns, tiles
 layout(std430, binding = 4) writeonly buffer Kept { uvec4 kept[]; };    // the lamps that are left, as in `lamps`
 layout(std430, binding = 5) buffer CellLamps { uvec4 cell_lamps[]; };
 #include "realtime.glsl"
@@ -110,8 +112,11 @@ void main() {
             box = ivec4(min(box.xy, ivec2(x, y)), max(box.zw, ivec2(x, y)));
             all += uint(bitCount(lamp.x) + bitCount(lamp.y));
         }
-    boxes[own] = box;
-    reach[own] = vec4(most, float(fine), tiles[own].xw);
+    const ivec2 across = max(box.zw - box.xy + 1, ivec2(0));
+    boxes[own] = ivec4(box.xy, across.x, across.x * across.y);
+    // Near surfaces may cover light in focus.
+    const vec2 range = tiles[own].xw;
+    reach[own] = vec4(most, float(range.x > 2 ? fine >> 4 : fine & 15u), range);
     const uvec4 lamp = lamps[own];
     kept[own] = uvec4(all > kMostLamps ? thinned(tile, lamp.xy, all) : lamp.xy, lamp.zw);
 }

@@ -76,11 +76,12 @@ float share_of(vec4 near, vec4 light, vec4 behind) {
 // Reads the window. All invocations of the group call it together.
 void read_window() {
     const ivec2 tile = kTile * ivec2(gl_WorkGroupID.xy), cell = 2 * ivec2(gl_LocalInvocationID.xy), last = at.size - 1;
-    for (int y = 0; y < 2; ++y)
-        for (int x = 0; x < 2; ++x) {
-            const ivec2 place = cell + ivec2(x, y);
-            window[(place.y + 1) * kAcross + place.x + 1] = radius_of(texelFetch(depths, min(tile + place, last), 0).r);
-        }
+    const ivec2 first = min(tile + cell, last), second = min(tile + cell + 1, last);
+    const int first_place = (cell.y + 1) * kAcross + cell.x + 1;
+    window[first_place] = radius_of(texelFetch(depths, first, 0).r);
+    window[first_place + 1] = radius_of(texelFetch(depths, ivec2(second.x, first.y), 0).r);
+    window[first_place + kAcross] = radius_of(texelFetch(depths, ivec2(first.x, second.y), 0).r);
+    window[first_place + kAcross + 1] = radius_of(texelFetch(depths, second, 0).r);
     const int kSide = kAcross - 1;  // each side of the rim without its last pixel
     for (int i = int(gl_LocalInvocationIndex); i < 4 * kSide; i += 64) {
         const int side = i / kSide, along = i - side * kSide, back = side < 2 ? along : kSide - along;
@@ -113,17 +114,19 @@ float own_radius(ivec2 pixel, int place, vec4 light, float radius) {
     vec4 bright = light, dark = light;
     vec2 found = vec2(radius);  // of the brightest nearer pixel around, and of the darkest
     ivec2 to_bright = ivec2(0), to_dark = ivec2(0);
-    // Loops, because nine pixels at once need half as many registers again. Their own row and column come first: of pixels
-    // alike, these are not copies beyond the border of the picture.
-    [[dont_unroll]] for (int row = 0; row < 3; ++row)
-        [[dont_unroll]] for (int column = 0; column < 3; ++column) {
-            const ivec2 to = ivec2(column < 2 ? column : -1, row < 2 ? row : -1);
-            const float reaches = window[place + to.y * kAcross + to.x];
+    // Loops, because nine pixels at once need half as many registers again. Offsets are 0, 1 and -1, own row and column first: of
+    // pixels alike, these are not copies beyond the border of the picture.
+    [[dont_unroll]] for (int y = 0; y < 2; y = 1 - 2 * y) {
+        const int row = place + y * kAcross;
+        [[dont_unroll]] for (int x = 0; x < 2; x = 1 - 2 * x) {
+            const float reaches = window[row + x];
             if (reaches > radius - kApart) continue;
+            const ivec2 to = ivec2(x, y);
             const vec4 colour = light_of(texelFetch(colours, clamp(pixel + to, ivec2(0), at.size - 1), 0));
             if (brightness(colour) > brightness(bright)) bright = colour, found.x = reaches, to_bright = to;
             if (brightness(colour) < brightness(dark)) dark = colour, found.y = reaches, to_dark = to;
         }
+    }
     const bool is_dark = to_bright == ivec2(0);
     const ivec2 to = is_dark ? to_dark : to_bright;
     if (to == ivec2(0)) return radius;
@@ -167,9 +170,10 @@ void main() {
         float radius = of_depth;
         if (nearest[i] <= of_depth - kApart) radius = own_radius(drawn_at, place, light, of_depth);
         uint mark = radius != of_depth ? kSilhouette : 0u;
-        const vec4 bright = lamp_of(pixel, light, least_lamp, radius);
+        const float of_lamp = lamp_of(pixel, light, least_lamp, radius);
         const float drawn = blurred_share(abs(radius));  // by cells
-        if (bright != vec4(0)) {
+        if (of_lamp > 0) {
+            const vec4 bright = of_lamp * vec4(light.rgb, 0);
             light -= bright;
             if (pixel == drawn_at) {
                 const vec4 taken = drawn * bright;
@@ -202,8 +206,10 @@ void main() {
         }
         if (radius > -2.5) {
             // Light in focus hardly counts, or a tap between two cells would gather it.
-            const float back = 0.25 * ramp(-2.5, -2.0, radius), shown = radius > 0 ? drawn : 0.0;
-            const float weight = back * max(2 * shown / (1 + shown), 1e-3);
+            float back = 0.25, shown = 1e-3;  // by cells
+            if (radius < -2) back *= ramp(-2.5, -2.0, radius);
+            if (radius > 2) shown = max(2 * drawn / (1 + drawn), shown);
+            const float weight = back * shown;
             back_light += weight * light, back_area += back, back_weight += weight;
             // Emptiness has the radius of the surface beside it, or that surface would be blurred by the radius
             // of emptiness.
@@ -212,12 +218,16 @@ void main() {
         }
     }
     keep_lamp(cell, lamp, lamp_place);
+    const vec4 back = vec4(back_weight, back_radius, back_area, back_counts), near = vec4(near_area, near_radius, near_counts, 1 - back_area);
     part[kBackLight][own] = back_light;
-    part[kBack][own] = vec4(back_weight, back_radius, back_area, back_counts);
+    part[kBack][own] = back;
     part[kNearLight][own] = near_light;
-    part[kNear][own] = vec4(near_area, near_radius, near_counts, 1 - back_area);
+    part[kNear][own] = near;
+    imageStore(cells_1, ivec3(cell, kBackLight), back_light);
+    imageStore(cells_1, ivec3(cell, kBack), back);
+    imageStore(cells_1, ivec3(cell, kNearLight), near_light);
+    imageStore(cells_1, ivec3(cell, kNear), near);
     sums_around[own].xyz = range;
-    for (int k = 0; k < kLayers; ++k) imageStore(cells_1, ivec3(cell, k), part[k][own]);
     imageStore(cells_1, ivec3(cell, kRadii), own_radii);
     const ivec2 tile = ivec2(gl_WorkGroupID.xy);
     uint quarters = 0u;  // a bit for each quarter of the tile with small blurs, then one for each with these or light in focus
