@@ -92,7 +92,7 @@ class SeenElsewhere(CommandLineTest):
         self.assertEqual(self.behind_the_post("scaled", "--temporal", "2", "--motion", "flow", "--motion-scale=-2,2")["pixels"], by_vectors)
         self.assertTrue(self.result("scaled.0002.exr") == self.result("vectors.0002.exr"))
         self.refuse(2, "defocus", "in.####.exr", "-o", "no.####.exr", "--temporal", "2", "--motion", "speed",
-                    says=["in.0000.exr", "no layer 'speed' with", "flow"])
+                    says=["in.0000.exr", "no motion layer 'speed'", "flow"])
 
     def test_what_moves_by_itself_without_vectors_is_no_worse_than_alone(self):
         self.write_passing_cards(4, range(5))

@@ -107,9 +107,10 @@ Result<std::optional<MotionChoice>> named(const std::string& path, const Layout&
         if (const auto v = vector_of(g)) return std::optional(single(*v));
     }
     return Error{ErrorCode::InvalidArgument,
-                 printable(path, 4096) + ": has no layer '" + printable(wanted) +
-                     "' with X, Y, Z, W or u, v or x, y or R, G (read.motion.layer); such are " +
-                     listed(names),
+                 printable(path, 4096) + ": has no motion layer '" + printable(wanted) +
+                     "' (read.motion.layer); " +
+                     (names.empty() ? "no layer has channels X, Y, Z, W or u, v or x, y or R, G"
+                                    : "its motion layers: " + listed(names)),
                  "read.motion.layer"};
 }
 
