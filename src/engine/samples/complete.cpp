@@ -44,17 +44,10 @@ CocSamples completed_before_plate(const EngineView& input, View<const unsigned c
     FoundSurfaces front{found_surfaces(input, connected, dim), {}};
     unmix_before_plate(front.flat.mixtures, picture, input.samples.coc_px, plate, workers);
     CocSamples back, all;
-    if (plate.covers) {
-        EngineView behind = input;
-        behind.samples.colour = plate.colour, behind.samples.coc_px = plate.coc_px;
-        flat_picture(behind, connections(plate.coc_px, workers), dim)->rows(0, height, back);
-        picture_before_plate(input, std::move(front), back, plate.coc_px)->rows(0, height, all);
-    } else {
-        front.lamps = found_lamps(input, front.flat, dim);
-        const Patches patches = patches_of(plate);
-        picture_before_plate(input, std::move(front), patches.samples, patches.radii_px)
-            ->rows(0, height, all);
-    }
+    EngineView behind = input;
+    behind.samples.colour = plate.colour, behind.samples.coc_px = plate.coc_px;
+    flat_picture(behind, connections(plate.coc_px, workers), dim)->rows(0, height, back);
+    picture_before_plate(input, std::move(front), back, plate.coc_px)->rows(0, height, all);
     if (!plate.all) drop_out_of_sight(all, input.lens.level(0).reach_px(1), input.window.open_edges, workers);
     return all;
 }
@@ -64,9 +57,9 @@ CocSamples completed_before_plate(const EngineView& input, View<const unsigned c
 CompletedPicture::CompletedPicture(const EngineView& input, View<const unsigned char> connected,
                                    const Dim& dim)
     : height_(input.height()) {
-    if (!input.samples.plate.empty())
+    if (!input.samples.plate.empty() && input.samples.plate.covers)
         parts_ = std::make_unique<GivenSamples>(completed_before_plate(input, connected, dim));
-    else if (!input.samples.deep.empty())
+    else if (input.samples.are_all_stated())
         parts_ = std::make_unique<GivenSamples>(deep_completed(input));
     else
         parts_ = flat_picture(input, connected, dim);

@@ -83,12 +83,11 @@ private:
         auto lamp = lamps.begin();
         for (int x = 0; x < input_.width(); ++x) {
             begin(x);
-            const auto emit_before_plate = [&](const CocSample& s) {
-                if (!back_ || is_before_plate(s.coc_px, back_px_(x, y))) emit(s);
-            };
-            visit_surfaces(x, y, emit_before_plate);
-            if (lamp != lamps.end() && lamp->x == x)
-                emit_before_plate({lamp->light, lamp->coc_px, lamp->coc_px}), ++lamp;
+            visit_surfaces(x, y, emit);
+            if (lamp != lamps.end() && lamp->x == x) {
+                if (is_seen(x, y, lamp->coc_px)) emit({lamp->light, lamp->coc_px, lamp->coc_px});
+                ++lamp;
+            }
             if (back_)
                 for (const CocSample& s : CocSamplesView(*back_).at(x, y)) emit(s);
         }
@@ -96,10 +95,19 @@ private:
     template <typename Emit>
     void visit_surfaces(int x, int y, const Emit& emit) const {
         const View<const Rgba> colour = input_.samples.colour;
+        const View<const float> coc_px = input_.samples.coc_px;
+        const auto emit_sample = [&](Rgba c, float coc, float share) { emit(sample(c, coc, share)); };
+        if (!back_) return found_->flat.visit_with_patches(colour, coc_px, x, y, emit_sample);
         // The plate shows through the uncovered part of the picture.
-        found_->flat.visit(colour, input_.samples.coc_px, x, y,
-                           back_ && !std::isinf(back_px_(x, y)) ? colour(x, y).a : 1,
-                           [&](Rgba c, float coc_px, float share) { emit(sample(c, coc_px, share)); });
+        found_->flat.visit(colour, coc_px, x, y, colour(x, y).a, [&](Rgba c, float coc, float share) {
+            if (is_before_plate(coc, back_px_(x, y))) emit_sample(c, coc, share);
+        });
+    }
+    // False: it lies behind the plate or the patch at (x, y).
+    bool is_seen(int x, int y, float coc_px) const {
+        const FlatSurfaces& flat = found_->flat;
+        if (back_) return is_before_plate(coc_px, back_px_(x, y));
+        return !flat.is_patch(x, y) || is_before_plate(coc_px, flat.patches.coc_px(x, y));
     }
 
     const EngineView& input_;

@@ -12,7 +12,7 @@ namespace petzval::engine {
 std::unique_ptr<CompletedPicture::Parts> flat_picture(const EngineView& input,
                                                       View<const unsigned char> connected, const Dim& dim);
 // The surfaces in front of a plate, and behind them `back`, the completed plate, whose picture shows the
-// radii back_px; infinite ones where it says nothing. Borrows all but `before`.
+// radii back_px. Borrows all but `before`.
 std::unique_ptr<CompletedPicture::Parts> picture_before_plate(const EngineView& input, FoundSurfaces before,
                                                               const CocSamples& back,
                                                               View<const float> back_px);

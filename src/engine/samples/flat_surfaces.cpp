@@ -37,6 +37,7 @@ FlatSurfaces surfaces_of(const EngineView& input, const LitPicture& picture, flo
         found.hidden = fill_hidden(picture, samples.coc_px, connected, found.mixtures, samples.nearest_coc_px,
                                    samples.farthest_coc_px, rule, white, workers);
     unmix_nearer(found.mixtures, picture, found.hidden, workers);
+    found.add_patches(picture, samples.coc_px, workers);
     return found;
 }
 
@@ -71,6 +72,12 @@ void take_light_of_layer(const EngineView& layer, FlatSurfaces& surfaces) {
 
 }  // namespace
 
+void FlatSurfaces::add_patches(const LitPicture& picture, View<const float> coc_px, Workers& workers) {
+    if (picture.patches.empty()) return;
+    patches = picture.patches;
+    unmix_before_plate(mixtures, picture, coc_px, patches, workers);
+}
+
 std::size_t FlatSurfaces::sample_count(std::size_t pixels) const {
     std::size_t count = pixels;
     for (int y = 0; y < mixtures.height(); ++y)
@@ -98,13 +105,6 @@ std::shared_ptr<const FlatSurfaces> preview_surfaces(const EngineView& input, bo
     const Dim dim = white > 0 ? without_lamps(white) : Dim{};
     const LitPicture picture{colour, dim, input.samples.patches()};
     const auto find = [&] { return surfaces_of(input, picture, white, fills); };
-    if (!picture.patches.empty()) {
-        auto with_patches = std::make_shared<FlatSurfaces>(find());
-        with_patches->patches = picture.patches;
-        unmix_before_plate(with_patches->mixtures, picture, input.samples.coc_px, picture.patches,
-                           *input.services.workers);
-        return with_patches;
-    }
     if (!input.samples.picture.empty()) {
         auto of_layer = std::make_shared<FlatSurfaces>(find());
         take_light_of_layer(input, *of_layer);

@@ -27,7 +27,7 @@ struct FlatSurfaces {
     template <typename Emit>
     void visit_with_patches(View<const Rgba> colour, View<const float> coc_px, int x, int y,
                             Emit&& emit) const {
-        if (patches.empty() || !patches.is_stated(x, y)) return visit(colour, coc_px, x, y, 1, emit);
+        if (!is_patch(x, y)) return visit(colour, coc_px, x, y, 1, emit);
         const float patch_px = patches.coc_px(x, y);
         visit(colour, coc_px, x, y, colour(x, y).a, [&](Rgba c, float coc, float share) {
             if (is_before_plate(coc, patch_px)) emit(c, coc, share);
@@ -41,6 +41,9 @@ struct FlatSurfaces {
         visit(*this, colour, coc_px, x, y, 1, emit);
     }
 
+    bool is_patch(int x, int y) const { return !patches.empty() && patches.is_stated(x, y); }
+    // Takes the picture's patches, and separates again the silhouettes in front of them.
+    void add_patches(const LitPicture& picture, View<const float> coc_px, Workers& workers);
     // True if the nearer surface takes up a part of the pixel worth drawing.
     static bool shows_near(const Mixture& m) { return m.near_share > 1e-3f || m.lights_near; }
 

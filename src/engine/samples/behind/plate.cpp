@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <limits>
 
 namespace petzval::engine {
 namespace {
@@ -90,22 +89,6 @@ BackPicture back_picture(const StatedPicture& p, Workers& workers) {
     constexpr double kCovers = 0.9;
     back.covers = double(covered) >= kCovers * double(back.coc_px.size());
     return back;
-}
-
-Patches patches_of(const CleanPlate& plate) {
-    const int width = plate.coc_px.width(), height = plate.coc_px.height();
-    Patches patches{{}, Plane(width, height, std::numeric_limits<float>::infinity())};
-    patches.samples.width = width;
-    patches.samples.first.reserve(std::size_t(width) * std::size_t(height) + 1);
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            patches.samples.first.push_back(patches.samples.samples.size());
-            if (!plate.is_stated(x, y)) continue;
-            const float coc_px = patches.radii_px(x, y) = plate.coc_px(x, y);
-            patches.samples.samples.push_back({plate.colour(x, y), coc_px, coc_px});
-        }
-    patches.samples.first.push_back(patches.samples.samples.size());
-    return patches;
 }
 
 void unmix_before_plate(Mixtures& mixtures, const LitPicture& picture, View<const float> coc_px,

@@ -29,13 +29,6 @@ inline bool is_before_plate(float coc_px, float plate_px) {
     return laws::is_in_front(coc_px, plate_px, laws::kConnected.step_px);
 }
 
-// The plate's own samples where it is patches; radii_px is infinite between them.
-struct Patches {
-    CocSamples samples;
-    Plane radii_px;
-};
-Patches patches_of(const CleanPlate& plate);
-
 // Separates again the silhouettes in front of the plate, now that the plate gives the background's colour.
 void unmix_before_plate(Mixtures& mixtures, const LitPicture& picture, View<const float> coc_px,
                         const CleanPlate& plate, Workers& workers);
