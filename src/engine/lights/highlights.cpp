@@ -169,6 +169,7 @@ struct Taken {
     std::size_t sample = 0;
     float leaves = 1;  // share of it that leaves the pixel
     PartOfPixel part{};
+    bool is_shown = false;
 };
 
 // The front-most bright samples of a block of kLargestSquare pixels on a side, to be divided into squares.
@@ -213,8 +214,8 @@ public:
                     samples.samples[c.taken.sample].colour.a > HighlightSplit::kLeastAlpha)
                     samples.samples[c.taken.sample].colour += c.taken.colour;
                 else
-                    out.push_back(
-                        {x_ + x, y_ + y, 1, c.coc_px, c.taken.leaves * c.taken.colour, c.taken.part});
+                    out.push_back({x_ + x, y_ + y, 1, c.coc_px, c.taken.leaves * c.taken.colour, c.taken.part,
+                                   c.taken.is_shown});
             }
     }
 
@@ -260,6 +261,7 @@ void take_pixel(const Rows& rows, int x, int y, std::optional<Block>& block, std
     const std::size_t i = std::size_t(y) * std::size_t(samples.width) + std::size_t(x);
     const std::size_t first = samples.first[i];
     bool in_block = false;
+    float shown = 0;  // light taken so far
     for (std::size_t k = first; k < samples.first[i + 1]; ++k) {
         CocSample& sample = samples.samples[k];
         if (split.is_dim(luminance(sample.colour), sample.colour.a)) continue;
@@ -276,13 +278,15 @@ void take_pixel(const Rows& rows, int x, int y, std::optional<Block>& block, std
         const float coc = std::clamp(split.radius_of_light(x, rows.first_row + y, sample.coc_px),
                                      -kWidestHighlightPx, kWidestHighlightPx);
         const PartOfPixel part = split.part_of_lamp(x, rows.first_row + y);
+        shown += luminance(taken);
+        const bool is_shown = is_beside(up_to_this) && shown <= split.shown(x, rows.first_row + y);
         sample.colour = base;
         if (in_block) {
-            out.push_back({x, y, 1, coc, leaves * taken, part});
+            out.push_back({x, y, 1, coc, leaves * taken, part, is_shown});
             continue;
         }
         if (!block) block.emplace(x - x % kLargestSquare, y - y % kLargestSquare, rows.first_row);
-        block->put(x, y, coc, {taken, k, leaves, part}), in_block = true;
+        block->put(x, y, coc, {taken, k, leaves, part, is_shown}), in_block = true;
     }
 }
 

@@ -18,6 +18,8 @@ struct Highlight {
     float coc_px = 0;
     Rgba colour;  // what was taken out of each of its pixels; a is 0: the surface itself stays in the base
     PartOfPixel part{};  // of a single pixel
+    // True if the picture shows all of it: what covers a part of its pixel lies beside it.
+    bool is_shown = false;
 };
 
 // A pixel is a highlight if its luminance is above
@@ -76,6 +78,8 @@ public:
     // Up to this luminance, times its coverage, dim() leaves light as it is.
     float least_of_lamps() const { return white_ * rule_.lamp_floor; }
     float white() const { return white_; }
+    // Luminance of pixel (x, y) in the picture, rounded up.
+    float shown(int x, int y) const { return 1.001f * luminance(colour_(x, y)); }
     // The surroundings of all pixels, as a number: dim() depends on them, white and its rule.
     std::uint64_t name() const;
     // Light of a surface that base() leaves as it is wherever it is.

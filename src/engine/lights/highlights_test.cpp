@@ -123,5 +123,33 @@ TEST(Highlights, TheBorderCutsOffLampsAndNoSurfaces) {
     EXPECT_LT(luminance(split.base(60, 0, 3, lamp)), 0.1f);
 }
 
+// Light of `behind` in a pixel of which a nearer surface covers a part; the picture shows `shown`.
+bool is_shown(float shown, Rgba behind, float covered = 0.4f) {
+    Picture colour(kWidth, kHeight, Rgba{0.01f, 0.01f, 0.01f, 1});
+    colour(40, 30) = {shown, shown, shown, 1};
+    const Plane coc_px(kWidth, kHeight, kHiddenPx);
+    CocSamples samples;
+    samples.width = kWidth;
+    for (int i = 0; i < kWidth * kHeight; ++i) {
+        samples.first.push_back(samples.samples.size());
+        if (i == 30 * kWidth + 40) {
+            samples.samples.push_back({{0, 0, 0, covered}, 0, 0});
+            samples.samples.push_back({behind, kHiddenPx, kHiddenPx});
+        }
+    }
+    samples.first.push_back(samples.samples.size());
+    const std::vector<Highlight> found = take_highlights(samples, HighlightSplit(view_of(colour, coc_px), {}),
+                                                         0, kLargestSquare, one_thread());
+    return found.size() == 1 && found[0].is_shown;
+}
+
+TEST(Highlights, ThePictureShowsLightThatLiesBesideASurface) {
+    EXPECT_TRUE(is_shown(50, {50, 50, 50, 0})) << "a lamp";
+    EXPECT_TRUE(is_shown(50, {50, 50, 50, 0.6f})) << "a lit surface, in the rest of the pixel";
+    EXPECT_FALSE(is_shown(30, {50, 50, 50, 1})) << "one that goes on behind it";
+    EXPECT_FALSE(is_shown(1, {50, 50, 50, 0})) << "the hidden part of a lamp";
+    EXPECT_FALSE(is_shown(50, {50, 50, 50, 0}, 1)) << "a lamp behind an opaque surface";
+}
+
 }  // namespace
 }  // namespace petzval::engine

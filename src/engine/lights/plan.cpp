@@ -17,7 +17,7 @@ constexpr std::size_t kBatchBytes = std::size_t(64) << 20;
 
 Viewpoint own_viewpoint(const Highlight& h) {
     const float middle = 0.5f * float(h.size - 1);
-    return {float(h.x) + middle, float(h.y) + middle, h.coc_px, h.size, laws::kOwnTapPx};
+    return {float(h.x) + middle, float(h.y) + middle, h.coc_px, h.size, laws::kOwnTapPx, h.is_shown};
 }
 
 // Highlights of one lamp share almost the same view: single pixels in a square share one viewpoint if the
@@ -33,8 +33,12 @@ Viewpoint shared_viewpoint(const Highlight& h, Quality quality) {
     constexpr float kStepsPerPx = 8;
     const float centre = 0.5f * float(square - 1);
     const int first_x = h.x / square * square, first_y = h.y / square * square;
-    return {float(first_x) + centre, float(first_y) + centre,
-            std::round(h.coc_px * kStepsPerPx) / kStepsPerPx, 1, 0.25f * float(square)};
+    return {float(first_x) + centre,
+            float(first_y) + centre,
+            std::round(h.coc_px * kStepsPerPx) / kStepsPerPx,
+            1,
+            0.25f * float(square),
+            false};
 }
 
 }  // namespace
@@ -59,12 +63,13 @@ LightsPlanner::LightsPlanner(const EngineView& strip, const HighlightKernels& ke
 
 // Viewpoints that nobody shares are the highlight's own.
 void LightsPlanner::find_viewpoints() {
-    std::map<std::tuple<float, float, float, int>, std::size_t> known;
+    std::map<std::tuple<float, float, float, int, bool>, std::size_t> known;
     constexpr std::size_t kShared = std::size_t(-1);
     std::vector<std::size_t> first;  // highlight of each viewpoint; those of shared ones are kShared
     for (std::size_t i = 0; i < highlights_.size(); ++i) {
         const Viewpoint v = shared_viewpoint(highlights_[i], input_.options.quality);
-        const auto [at, is_new] = known.try_emplace({v.y, v.x, v.coc_px, v.size}, viewpoints_.size());
+        const auto [at, is_new] =
+            known.try_emplace({v.y, v.x, v.coc_px, v.size, v.is_shown}, viewpoints_.size());
         if (is_new)
             viewpoints_.push_back(v), first.push_back(i);
         else

@@ -21,6 +21,7 @@ struct Viewpoint {
     float coc_px = 0;
     int size = 1;              // of the highlight
     float own_surface_px = 0;  // what is nearer by less is the highlight's own surface
+    bool is_shown = false;     // of a highlight of one pixel: as there
 
     // Offset of the first tap of its disc from a highlight's first pixel.
     int first_tap() const {

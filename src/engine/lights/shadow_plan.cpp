@@ -1,5 +1,7 @@
 #include "engine/lights/shadow_plan.h"
 
+#include "laws/surfaces.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -65,6 +67,7 @@ private:
 
     void add(const Caster& caster) {
         const float apart = view_.coc_px - caster.coc_px;
+        if (view_.is_shown && lies_beside(caster)) return;
         if (caster.size > 1 && apart < ShadowCasters::kSameRadiusPx) return;
         const float per_px = 1 / apart;
         // A tap sees each pixel of the highlight through another place of the caster's plane, wider apart the
@@ -83,6 +86,11 @@ private:
                          blur * per_px, caster.coverage});
     }
 
+    // True if it covers a part of the light's own pixel.
+    bool lies_beside(const Caster& caster) const {
+        return caster.size == 1 && caster.coverage < laws::kOpaqueCaster && caster.x == view_.x &&
+               caster.y == view_.y;
+    }
     // A square along one axis of the pupil. Each end has its own radius, so that the squares of a sloping
     // surface meet. One that touches an open edge of the picture continues beyond it.
     struct Side {

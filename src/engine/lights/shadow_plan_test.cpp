@@ -102,5 +102,27 @@ TEST(ShadowPlan, ASlopingSurfaceHasNoCracks) {
     }
 }
 
+// A light of one pixel, a part of which a surface in focus covers.
+TEST(ShadowPlan, ShownLightLiesBesideWhatCoversAPartOfItsPixel) {
+    constexpr int kMiddle = kSide / 2;
+    CocSamples all;
+    all.width = kSide;
+    for (int i = 0; i < kSide * kSide; ++i) {
+        all.first.push_back(all.samples.size());
+        if (i == kMiddle * kSide + kMiddle) all.samples.push_back({{0, 0, 0, 0.4f}, 0, 0});
+        all.samples.push_back({{1, 1, 1, 1}, kLightPx, kLightPx});
+    }
+    all.first.push_back(all.samples.size());
+    const ShadowCasters casters(all, one_thread());
+    LightsPlan plan;
+    plan.casters = &casters, plan.picture = {0, 0, kSide, kSide};
+    const auto seen_from = [&](int x, bool is_shown) {
+        return seen_casters(plan, {float(x), float(kMiddle), kLightPx, 1, 0.02f, is_shown}).size();
+    };
+    EXPECT_EQ(seen_from(kMiddle, true), 0u);
+    EXPECT_EQ(seen_from(kMiddle, false), 1u) << "hidden light";
+    EXPECT_EQ(seen_from(kMiddle + 1, true), 1u) << "the next pixel";
+}
+
 }  // namespace
 }  // namespace petzval::engine

@@ -31,4 +31,14 @@ inline float not_covered(std::span<const CocSample> samples) {
     return room < kLeast ? 0 : std::min(1.0f, room / std::max(kLeast, own.colour.a));
 }
 
+// Samples of one pixel, nearest first: true if there is room for the last beside those in front of it.
+inline bool is_beside(std::span<const CocSample> samples) {
+    constexpr float kLeast = 1e-3f;
+    const CocSample& own = samples.back();
+    float room = 1;
+    for (const CocSample& s : samples.first(samples.size() - 1))
+        if (s.coc_px < own.coc_px) room -= s.colour.a;
+    return room > kLeast && own.colour.a <= room + kLeast;
+}
+
 }  // namespace petzval::engine
