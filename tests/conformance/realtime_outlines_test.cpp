@@ -61,5 +61,21 @@ TEST_F(Realtime, AHalfCoveredRimInFrontOfFocusCountsOnce) {
         }
 }
 
+// A lamp hardly behind focus is cut by a wide surface in front of focus. What this surface hides is not
+// another lamp.
+TEST_F(Realtime, AWideNearSurfaceShowsNoCopyOfTheLampBesideIt) {
+    for (Session& session : sessions_) {
+        Shot shot = flat(96, 64, {0.01f, 0.01f, 0.01f, 1}, 1.2f);
+        for (int y = 0; y < 64; ++y)
+            for (int x = 0; x < 48; ++x) shot.coc_px(x, y) = -4;
+        for (int y = 31; y < 34; ++y)
+            for (int x = 48; x < 51; ++x) shot.colour(x, y) = {8, 8, 8, 1};
+        const Picture made = drawn(session, shot);
+        EXPECT_GT(made(49, 32).g, 4);
+        EXPECT_LT(made(47, 32).g, 0.3);
+        EXPECT_LT(made(46, 32).g, 0.1);
+    }
+}
+
 }  // namespace
 }  // namespace petzval::conformance

@@ -188,7 +188,8 @@ TEST(RealtimeDrawer, ManyLampsAreNotDrawnOneByOne) {
         EXPECT_LE(drawer.most_lamps(), 40u) << per_thousand;
         EXPECT_EQ(drawer.most_lamps() > 4, per_thousand == 1 || per_thousand == 2) << per_thousand;
         // Discs of pixels near the border leave the picture; as many enter it only where taps continue it.
-        EXPECT_NEAR(made / light, 1, per_thousand > 2 ? 0.03 : 0.09) << per_thousand;
+        // These mostly repeat the outermost pixels, and few of them are bright.
+        EXPECT_NEAR(made / light, 1, per_thousand > 2 ? 0.03 : 0.12) << per_thousand;
     }
 }
 

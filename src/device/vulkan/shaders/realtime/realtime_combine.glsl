@@ -124,16 +124,20 @@ End end_of(int own, int along, float step_px, float near_px) {
 struct Behind {
     vec4 light;
     float sharp, disc, area;  // as in End; 0: nothing was found
+    bool is_between;  // true if a line has two ends
 };
 Behind behind_at(int own, float near_px) {
-    Behind sum = Behind(vec4(0), 0, 0, 0);
+    Behind sum = Behind(vec4(0), 0, 0, 0, false);
     [[dont_unroll]] for (int axis = 0; axis < 4; ++axis) {
         const int along = axis == 0 ? 1 : kAcross + axis - 2;
         const float step_px = 0.5 - inside[axis == 0 ? kToRight : kToRight + kSquare - 3 + axis];
         const End one = end_of(own, along, step_px, near_px), other = end_of(own, -along, step_px, near_px);
         const vec2 bright = vec2(brightness(one.light), brightness(other.light));
         vec2 w = weights_of(one.light, other.light, vec2(one.away, other.away), vec2(one.likely, other.likely));
-        if (min(w.x, w.y) > 0) w *= min(vec2(1), 4 * bright.yx / max(bright, vec2(1e-6)));
+        if (min(w.x, w.y) > 0) {
+            w *= min(vec2(1), 4 * bright.yx / max(bright, vec2(1e-6)));
+            sum.is_between = true;
+        }
         const vec2 w_sharp = w * vec2(one.sharp, other.sharp);
         sum.light += w.x * one.light + w.y * other.light;
         sum.disc += dot(w_sharp, vec2(one.disc, other.disc));
@@ -152,13 +156,21 @@ struct Fine {
 // Removes the near surface from the picture in the window. Returns the signed radius of the surface behind it. All
 // invocations of the group call it together.
 float reveal(int own, float radius) {
-    Behind behind = Behind(vec4(0), 0, 0, 0);
+    Behind behind = Behind(vec4(0), 0, 0, 0, false);
     if (radius <= -kWholePx) behind = behind_at(own, radius);
     barrier();
     if (behind.sharp > 0) {
         window[own] = behind.light;
         window_discs[own] = vec2(behind.disc, behind.sharp * of_each(abs(behind.disc), abs(behind.disc)));
         radius = behind.disc;
+        // A wide surface beside a lamp hides a rest of the lamp at most: light brighter than this says less the brighter it is, and
+        // the disc of the lamp's visible part does not pass the surface.
+        const float kBright = 4;  // on the host's display, where white has 3
+        const float bright = at.exposure * brightness(behind.light);
+        if (bright > kBright && !behind.is_between) {
+            window[own] *= (kBright / bright) * (kBright / bright);
+            radius = 0;
+        }
     }
     barrier();
     return radius;

@@ -20,7 +20,8 @@ void measure_around() {
     if (own == 0) least_around = 0x7f7fffffu;
     barrier();
     for (int i = own; i < 81; i += 64) {
-        const ivec2 d = ivec2(i % 9, i / 9) - 4, tile = clamp(ivec2(gl_WorkGroupID.xy) + d, ivec2(0), at.tiles - 1);
+        const int row = i / 9;
+        const ivec2 d = ivec2(i - 9 * row, row) - 4, tile = clamp(ivec2(gl_WorkGroupID.xy) + d, ivec2(0), at.tiles - 1);
         const vec2 found = surroundings[tile.y * at.tiles.x + tile.x];
         const float light = found.y;
         const int far = max(abs(d.x), abs(d.y));
@@ -70,11 +71,13 @@ float radius_of_part(float of_lamp, float share) {
 // sixteenth of the light that all discs of its radius bring to a pixel, so about sixteen lamps at most reach a pixel. Taps show
 // all other light. radius: that of the pixel; that of a small lamp replaces it.
 float lamp_of(ivec2 pixel, vec4 light, float least, inout float radius) {
-    const float kStandsOut = 1.0 / 16;
+    const float kStandsOut = 1.0 / 16, kAtSide = 6;  // twice as bright as white on the host's display
     const float own = brightness(light);
     if (own <= least) return 0;  // most pixels, before any interpolation
     const vec2 around = surroundings_at(pixel);
     float floor_light = 4 * around.x;
+    // Light at a side of the picture continues beyond, where taps find it and no lamp is: only very bright light is a lamp there.
+    if (min(pixel.x, pixel.y) == 0 || any(equal(pixel, at.size - 1))) floor_light += kAtSide / at.exposure;
     if (own <= floor_light) return 0;
     float most, all;
     const float of_lamp = radius_of_brightest(pixel - 1, 3, most, all), wide = abs(of_lamp), disc = max(3.14159 * wide * wide, 1.0);

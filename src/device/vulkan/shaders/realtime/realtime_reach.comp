@@ -90,6 +90,7 @@ void main() {
     const float kLampReach = 1.25, kBorder = 2;  // of the radius; pixels: what a kernel covers
     const ivec2 far = ivec2((kLampReach * vec2(at.most_px, at.most_px * at.aspect) + kBorder) / float(kTile)) + 1;
     const ivec2 low = max(tile - far, ivec2(0)), high = min(tile + far, at.tiles - 1);
+    const float per_aspect = 1 / at.aspect;
     float most = 0;
     uint fine = 0u;
     uint all = 0;
@@ -100,15 +101,15 @@ void main() {
             const float radius = found.x;
             // Distance between the nearest pixels of both.
             vec2 gap = float(kTile) * vec2(max(abs(ivec2(x, y) - tile) - 1, ivec2(0)));
-            gap.y /= at.aspect;
+            gap.y *= per_aspect;
             if (radius > most && dot(gap, gap) <= (radius + 1) * (radius + 1)) most = radius;
             if (gap == vec2(0)) {
                 const uint quarters = uint(found.y);
                 fine |= touched(quarters, ivec2(x, y) - tile) | touched(quarters >> 4, ivec2(x, y) - tile) << 4;
             }
             const uvec4 lamp = lamps[y * at.tiles.x + x];
-            const float wide = kLampReach * uintBitsToFloat(lamp.z) + kBorder;
-            if ((lamp.x | lamp.y) == 0u || max(gap.x, gap.y) > wide) continue;
+            if ((lamp.x | lamp.y) == 0u) continue;
+            if (max(gap.x, gap.y) > kLampReach * uintBitsToFloat(lamp.z) + kBorder) continue;
             box = ivec4(min(box.xy, ivec2(x, y)), max(box.zw, ivec2(x, y)));
             all += uint(bitCount(lamp.x) + bitCount(lamp.y));
         }

@@ -147,6 +147,17 @@ float own_radius(ivec2 pixel, int place, vec4 light, float radius) {
 // within the range of half floats.
 float counts_of(vec4 light) { return clamp(sqrt(at.exposure * brightness(light)), 1e-3, 60.0); }
 
+// Weights of the four parts of a cell at a side of the picture; count: how many cells there are. Taps beyond the picture read
+// these cells, so the outer half of each counts more: it is the half that continues.
+vec4 weights_at(ivec2 cell, ivec2 count) {
+    const float kOuter = 0.75;
+    const vec2 first = 0.5 + (kOuter - 0.5) * (vec2(equal(cell, ivec2(0))) - vec2(equal(cell, count - 1))), second = 1 - first;
+    return vec4(first.x, second.x, first.x, second.x) * vec4(first.yy, second.yy);
+}
+vec4 mean_of(int layer, int upper, int lower, vec4 w) {
+    return w.x * part[layer][upper] + w.y * part[layer][upper + 1] + w.z * part[layer][lower] + w.w * part[layer][lower + 1];
+}
+
 void main() {
     const uint own = gl_LocalInvocationIndex;
     const ivec2 cell = ivec2(gl_GlobalInvocationID.xy), local = ivec2(gl_LocalInvocationID.xy);
@@ -161,6 +172,9 @@ void main() {
     const vec4 nearest = nearest_around(first_place);
     const ivec2 first_pixel = 2 * cell, last = at.size - 1;
     const float least_lamp = 4 * uintBitsToFloat(least_around), least_shadow_px = -at.most_px * (1.0 / float(kShadowSteps));
+    const ivec2 tile = ivec2(gl_WorkGroupID.xy), last_tile = at.tiles - 1;
+    const bool is_inner = min(tile.x, tile.y) > 0 && tile.x < last_tile.x && tile.y < last_tile.y;
+    const vec4 shares = is_inner ? vec4(0.25) : weights_at(cell, 8 * at.tiles);
     for (int i = 0; i < 4; ++i) {
         // Continues the border beyond the picture.
         const ivec2 corner = ivec2(i & 1, i >> 1), drawn_at = first_pixel + corner, pixel = min(drawn_at, last);
@@ -206,7 +220,7 @@ void main() {
         }
         if (radius > -2.5) {
             // Light in focus hardly counts, or a tap between two cells would gather it.
-            float back = 0.25, shown = 1e-3;  // by cells
+            float back = shares[i], shown = 1e-3;  // by cells
             if (radius < -2) back *= ramp(-2.5, -2.0, radius);
             if (radius > 2) shown = max(2 * drawn / (1 + drawn), shown);
             const float weight = back * shown;
@@ -229,19 +243,21 @@ void main() {
     imageStore(cells_1, ivec3(cell, kNear), near);
     sums_around[own].xyz = range;
     imageStore(cells_1, ivec3(cell, kRadii), own_radii);
-    const ivec2 tile = ivec2(gl_WorkGroupID.xy);
     uint quarters = 0u;  // a bit for each quarter of the tile with small blurs, then one for each with these or light in focus
     for (int side = 4; side > 0; side >>= 1) {
         barrier();
-        const bool is_one = local.x < side && local.y < side;
+        const bool is_one = max(local.x, local.y) < side;
         vec4 mean[kLayers];
         vec3 both;
-        if (side == 1 && own == 0u)
-            for (int i = 0; i < 4; ++i) quarters |= (sums_around[i].y > kSharpPx ? 1u : 0u) << i | (sums_around[i].y > 0 ? 16u : 0u) << i;
         if (is_one) {
+            if (side == 1)
+                for (int i = 0; i < 4; ++i) quarters |= (sums_around[i].y > kSharpPx ? 1u : 0u) << i | (sums_around[i].y > 0 ? 16u : 0u) << i;
             const int a = 2 * local.y * 2 * side + 2 * local.x, b = a + 2 * side;
-            for (int k = 0; k < kLayers; ++k)
-                mean[k] = 0.25 * (part[k][a] + part[k][a + 1] + part[k][b] + part[k][b + 1]);
+            const vec4 w = is_inner ? vec4(0.25) : weights_at(side * tile + local, side * at.tiles);
+            mean[kBackLight] = mean_of(kBackLight, a, b, w);
+            mean[kBack] = mean_of(kBack, a, b, w);
+            mean[kNearLight] = mean_of(kNearLight, a, b, vec4(0.25));
+            mean[kNear] = mean_of(kNear, a, b, vec4(0.25));
             both = max(max(sums_around[a].xyz, sums_around[a + 1].xyz), max(sums_around[b].xyz, sums_around[b + 1].xyz));
         }
         barrier();
