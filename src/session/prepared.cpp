@@ -195,11 +195,14 @@ void PreparedFrame::take_samples(const FrameRequest& request, View<const float> 
     samples_ = engine::all_samples(stated, *request.workers);
     plate_ = engine::back_picture(stated, *request.workers);
     const bool all = request.view == ScatterView::Layers || request.view == ScatterView::Hidden;
-    if (!plate_.empty()) seen.plate = plate_.view(all);
-    if (!all) engine::drop_out_of_sight(samples_, lens_reach_px, open_edges(request), *request.workers);
+    if (!all) {
+        engine::drop_out_of_sight(samples_, lens_reach_px, open_edges(request), *request.workers);
+        if (!plate_.empty()) plate_.mark_out_of_sight(samples_);
+    }
+    if (!plate_.empty()) seen.plate = plate_.view();
     if (!samples_.first.empty()) seen.deep = samples_;
     seen.deep_dims_itself = request.rendered.deep && !request.rendered.deep->empty();
-    if (request.look.fill != Fill::Full && seen.are_all_stated() &&
+    if (request.look.fill != Fill::Full && seen.are_hidden_stated() &&
         (seen.plate.empty() || request.look.engine != "scatter"))
         warnings.emplace_back("job.fill has no effect where all samples of a pixel are given");
     if (request.rendered.holdout && !request.rendered.holdout->empty())

@@ -230,5 +230,46 @@ TEST(Plate, PatchesBehindTheSidesOfACardAreBetterThanNone) {
     }
 }
 
+// The largest difference in rows and columns of `part`, relative to 1 + light.
+float largest_change(const Picture& a, const Picture& b, const Rect& part) {
+    float most = 0;
+    for (int y = part.y0; y < part.y1; ++y)
+        for (int x = part.x0; x < part.x1; ++x)
+            most = std::max(most, std::abs(a(x, y).g - b(x, y).g) / (1 + a(x, y).g));
+    return most;
+}
+
+TEST(Plate, ThatIsThePictureChangesNothing) {
+    CardBeforeWall scene;
+    const Picture colour = scene.shot.colour.clone();
+    const Plane coc_px = scene.shot.coc_px.clone();
+    for (const auto& [engine, most] : {std::pair{"scatter", 0.02f}, {"gather", 0.0f}}) {
+        scene.shot.behind = {};
+        const Picture without = rendered(scene.shot.job(engine));
+        put_behind(
+            scene.shot, [&](int x, int y) { return colour(x, y); },
+            [&](int x, int y) { return coc_px(x, y); });
+        EXPECT_LE(largest_change(rendered(scene.shot.job(engine)), without, colour.rect()), most) << engine;
+    }
+}
+
+// A plate of a card before a wall, and a post in front of its right end.
+TEST(Plate, HidesWhatIsEstimatedLikeAPicture) {
+    for (const char* engine : {"scatter", "gather"}) {
+        CardBeforeWall scene;
+        const Picture alone = rendered(scene.shot.job(engine));
+        const Picture colour = scene.shot.colour.clone();
+        const Plane coc_px = scene.shot.coc_px.clone();
+        put_behind(
+            scene.shot, [&](int x, int y) { return colour(x, y); },
+            [&](int x, int y) { return coc_px(x, y); });
+        for (int y = 0; y < kHeight; ++y)
+            for (int x = kWidth - 8; x < kWidth; ++x)
+                scene.shot.colour(x, y) = {0, 0, 0, 1}, scene.shot.coc_px(x, y) = -12;
+        const Rect left = Rect{0, 0, kWidth / 2, kHeight};
+        EXPECT_LT(largest_change(rendered(scene.shot.job(engine)), alone, left), 0.02f) << engine;
+    }
+}
+
 }  // namespace
 }  // namespace petzval::conformance

@@ -48,8 +48,8 @@ void for_each_deep_sample(const EngineView& input, int x, int y, Emit& emit) {
 template <typename Emit>
 void for_each_sample(const EngineView& input, const FlatSurfaces& surfaces, int x, int y, const Emit& emit) {
     SeenFirst take(emit);
-    if (!input.samples.are_all_stated())
-        return surfaces.visit_with_patches(input.samples.colour, input.samples.coc_px, x, y, take);
+    if (!input.samples.are_stated())
+        return surfaces.visit_with_plate(input.samples.colour, input.samples.coc_px, x, y, take);
     if (input.samples.deep_dims_itself) return for_each_deep_sample(input, x, y, take);
     for (const CocSample& s : input.samples.deep.at(x, y))
         take(s.colour, s.coc_px, s.colour == Rgba{} ? 1.0f : s.colour.a);

@@ -48,7 +48,7 @@ BrightPoints::Row BrightPoints::row(const HighlightSplit& split, int y) const {
     const View<const Rgba> judged = frame_.samples.judged();
     Row row;
     for (int x = 0; x < frame_.width(); ++x) {
-        if (frame_.samples.are_all_stated()) {
+        if (frame_.samples.are_stated()) {
             find_in_samples(split, x, y, row);
             continue;
         }
@@ -57,7 +57,9 @@ BrightPoints::Row BrightPoints::row(const HighlightSplit& split, int y) const {
             row.add(x, y, radius_of_brightest(judged, frame_.samples.coc_px, x, y),
                     (1 - stays) * frame_.samples.colour(x, y), {stays, 1, 0});
         const CleanPlate& plate = frame_.samples.plate;
-        if (plate.empty() || !is_before_plate(frame_.samples.coc_px(x, y), plate.coc_px(x, y))) continue;
+        if (plate.empty() || plate.is_out_of_sight(x, y) ||
+            !is_before_plate(frame_.samples.coc_px(x, y), plate.coc_px(x, y)))
+            continue;
         const float behind = share_that_stays(split, x, y, plate.coc_px(x, y), plate.colour(x, y));
         if (behind < 1)
             row.add(x, y, plate.coc_px(x, y), (1 - behind) * plate.colour(x, y), {behind, 1, 0, true});
@@ -106,12 +108,13 @@ BrightPoints::Rest BrightPoints::rest(int first_row, int last_row) const {
         rest.picture_ = without(input.samples.picture, begin, end, first_row);
         input.samples.picture = rest.picture_;
     }
-    if (!input.samples.patches().empty()) {
+    if (!input.samples.plate.empty()) {
         CleanPlate& plate = input.samples.plate;
         rest.plate_ = without(plate.colour, begin, end, first_row, true);
         for (int y = 0; y < rest.plate_.height(); ++y)
             for (int x = 0; x < rest.plate_.width(); ++x)
-                if (!plate.is_stated(x, y)) rest.plate_(x, y) = rest.colour_(x, y);
+                if (!is_before_plate(input.samples.coc_px(x, y), plate.coc_px(x, y)))
+                    rest.plate_(x, y) = rest.colour_(x, y);
         plate.colour = rest.plate_;
     } else if (!input.samples.deep.empty())
         input.samples.deep = rest.samples_ = samples_without(input.samples.deep, begin, end);
@@ -127,7 +130,7 @@ Picture BrightPoints::without(View<const Rgba> picture, std::size_t begin, std::
         if (taken.on_plate != of_plate) continue;
         Rgba& at = rest(int(sprites_[i].x), int(sprites_[i].y) - first_row);
         const Rgba all =
-            !frame_.samples.are_all_stated() ? at : frame_.samples.deep.samples()[taken.sample].colour;
+            !frame_.samples.are_stated() ? at : frame_.samples.deep.samples()[taken.sample].colour;
         at = with_light(at - taken.seen * (1 - taken.stays) * all, at.a);
     }
     return rest;

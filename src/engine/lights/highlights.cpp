@@ -56,7 +56,7 @@ float radius_of_brightest(View<const Rgba> colour, View<const float> coc_px, int
 HighlightSplit::HighlightSplit(const EngineView& input, const HighlightRule& rule)
     : rule_(rule),
       colour_(input.samples.judged()),
-      radii_known_(input.samples.are_visible_stated()),
+      radii_known_(input.samples.are_stated()),
       coc_px_(input.samples.coc_px),
       width_(input.width()),
       height_(input.height()) {

@@ -1,7 +1,5 @@
 #include "engine/samples/complete.h"
 
-#include "engine/samples/behind/out_of_sight.h"
-#include "engine/samples/behind/plate.h"
 #include "engine/samples/connectivity.h"
 #include "engine/samples/deep/deep_completed.h"
 #include "engine/samples/flat_picture.h"
@@ -35,31 +33,12 @@ private:
     CocSamples all_;
 };
 
-CocSamples completed_before_plate(const EngineView& input, View<const unsigned char> connected,
-                                  const Dim& dim) {
-    const CleanPlate& plate = input.samples.plate;
-    const LitPicture picture{input.samples.colour, dim};
-    Workers& workers = *input.services.workers;
-    const int height = input.height();
-    FoundSurfaces front{found_surfaces(input, connected, dim), {}};
-    unmix_before_plate(front.flat.mixtures, picture, input.samples.coc_px, plate, workers);
-    CocSamples back, all;
-    EngineView behind = input;
-    behind.samples.colour = plate.colour, behind.samples.coc_px = plate.coc_px;
-    flat_picture(behind, connections(plate.coc_px, workers), dim)->rows(0, height, back);
-    picture_before_plate(input, std::move(front), back, plate.coc_px)->rows(0, height, all);
-    if (!plate.all) drop_out_of_sight(all, input.lens.level(0).reach_px(1), input.window.open_edges, workers);
-    return all;
-}
-
 }  // namespace
 
 CompletedPicture::CompletedPicture(const EngineView& input, View<const unsigned char> connected,
                                    const Dim& dim)
     : height_(input.height()) {
-    if (!input.samples.plate.empty() && input.samples.plate.covers)
-        parts_ = std::make_unique<GivenSamples>(completed_before_plate(input, connected, dim));
-    else if (input.samples.are_all_stated())
+    if (input.samples.are_stated())
         parts_ = std::make_unique<GivenSamples>(deep_completed(input));
     else
         parts_ = flat_picture(input, connected, dim);

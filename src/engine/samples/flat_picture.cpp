@@ -21,27 +21,29 @@ CocSample sample(Rgba colour, float coc_px, float share) {
     return {colour, coc_px, coc_px, empty > 1e-3f ? empty : 0};
 }
 
+std::shared_ptr<const FoundSurfaces> found(const EngineView& input, View<const unsigned char> connected,
+                                           const Dim& dim) {
+    const std::uint64_t rules =
+        1 + 16 * std::uint64_t(input.options.quality) + 256 * std::uint64_t(input.options.fill);
+    return kept_or_found(input, input.samples.colour, dim, rules, [&] {
+        FoundSurfaces s{found_surfaces(input, connected, dim), {}};
+        if (const CleanPlate& plate = input.samples.plate; !plate.empty() && plate.covers) {
+            const auto behind =
+                found(picture_of_plate(input), connections(plate.coc_px, *input.services.workers), dim);
+            s.flat.of_plate = {behind, &behind->flat};
+            s.lamps = behind->lamps;
+        } else {
+            s.lamps = found_lamps(input, s.flat, dim);
+        }
+        return s;
+    });
+}
+
 // The surfaces of a picture, separated and completed.
 class FlatPicture final : public CompletedPicture::Parts {
 public:
     FlatPicture(const EngineView& input, View<const unsigned char> connected, const Dim& dim)
-        : input_(input) {
-        const std::uint64_t rules =
-            1 + 16 * std::uint64_t(input.options.quality) + 256 * std::uint64_t(input.options.fill);
-        found_ = kept_or_found(input, input.samples.colour, dim, rules, [&] {
-            FoundSurfaces s{found_surfaces(input, connected, dim), {}};
-            s.lamps = found_lamps(input, s.flat, dim);
-            return s;
-        });
-        count();
-    }
-    // Only what lies before the plate; `back` is the completed plate, whose picture shows back_px.
-    FlatPicture(const EngineView& input, FoundSurfaces before, const CocSamples& back,
-                View<const float> back_px)
-        : input_(input),
-          back_(&back),
-          back_px_(back_px),
-          found_(std::make_shared<const FoundSurfaces>(std::move(before))) {
+        : input_(input), found_(found(input, connected, dim)) {
         count();
     }
 
@@ -83,36 +85,18 @@ private:
         auto lamp = lamps.begin();
         for (int x = 0; x < input_.width(); ++x) {
             begin(x);
-            visit_surfaces(x, y, emit);
+            found_->flat.visit_with_plate(
+                input_.samples.colour, input_.samples.coc_px, x, y,
+                [&](Rgba c, float coc_px, float share) { emit(sample(c, coc_px, share)); });
             if (lamp != lamps.end() && lamp->x == x) {
-                if (is_seen(x, y, lamp->coc_px)) emit({lamp->light, lamp->coc_px, lamp->coc_px});
+                if (found_->flat.is_seen(x, y, lamp->coc_px))
+                    emit(CocSample{lamp->light, lamp->coc_px, lamp->coc_px});
                 ++lamp;
             }
-            if (back_)
-                for (const CocSample& s : CocSamplesView(*back_).at(x, y)) emit(s);
         }
-    }
-    template <typename Emit>
-    void visit_surfaces(int x, int y, const Emit& emit) const {
-        const View<const Rgba> colour = input_.samples.colour;
-        const View<const float> coc_px = input_.samples.coc_px;
-        const auto emit_sample = [&](Rgba c, float coc, float share) { emit(sample(c, coc, share)); };
-        if (!back_) return found_->flat.visit_with_patches(colour, coc_px, x, y, emit_sample);
-        // The plate shows through the uncovered part of the picture.
-        found_->flat.visit(colour, coc_px, x, y, colour(x, y).a, [&](Rgba c, float coc, float share) {
-            if (is_before_plate(coc, back_px_(x, y))) emit_sample(c, coc, share);
-        });
-    }
-    // False: it lies behind the plate or the patch at (x, y).
-    bool is_seen(int x, int y, float coc_px) const {
-        const FlatSurfaces& flat = found_->flat;
-        if (back_) return is_before_plate(coc_px, back_px_(x, y));
-        return !flat.is_patch(x, y) || is_before_plate(coc_px, flat.patches.coc_px(x, y));
     }
 
     const EngineView& input_;
-    const CocSamples* back_ = nullptr;
-    View<const float> back_px_;  // what its picture shows
     std::shared_ptr<const FoundSurfaces> found_;
     // Number of the first sample of each row, then the number of all.
     std::vector<std::size_t> first_of_row_;
@@ -123,12 +107,6 @@ private:
 std::unique_ptr<CompletedPicture::Parts> flat_picture(const EngineView& input,
                                                       View<const unsigned char> connected, const Dim& dim) {
     return std::make_unique<FlatPicture>(input, connected, dim);
-}
-
-std::unique_ptr<CompletedPicture::Parts> picture_before_plate(const EngineView& input, FoundSurfaces before,
-                                                              const CocSamples& back,
-                                                              View<const float> back_px) {
-    return std::make_unique<FlatPicture>(input, std::move(before), back, back_px);
 }
 
 void restart(CocSamples& samples, int width, int height, std::size_t count) {

@@ -37,7 +37,7 @@ FlatSurfaces surfaces_of(const EngineView& input, const LitPicture& picture, flo
         found.hidden = fill_hidden(picture, samples.coc_px, connected, found.mixtures, samples.nearest_coc_px,
                                    samples.farthest_coc_px, rule, white, workers);
     unmix_nearer(found.mixtures, picture, found.hidden, workers);
-    found.add_patches(picture, samples.coc_px, workers);
+    found.add_plate(samples.plate, picture, samples.coc_px, workers);
     return found;
 }
 
@@ -72,10 +72,11 @@ void take_light_of_layer(const EngineView& layer, FlatSurfaces& surfaces) {
 
 }  // namespace
 
-void FlatSurfaces::add_patches(const LitPicture& picture, View<const float> coc_px, Workers& workers) {
-    if (picture.patches.empty()) return;
-    patches = picture.patches;
-    unmix_before_plate(mixtures, picture, coc_px, patches, workers);
+void FlatSurfaces::add_plate(const CleanPlate& added, const LitPicture& picture, View<const float> coc_px,
+                             Workers& workers) {
+    if (added.empty()) return;
+    plate = added;
+    unmix_before_plate(mixtures, picture, coc_px, plate, workers);
 }
 
 std::size_t FlatSurfaces::sample_count(std::size_t pixels) const {
@@ -105,6 +106,11 @@ std::shared_ptr<const FlatSurfaces> preview_surfaces(const EngineView& input, bo
     const Dim dim = white > 0 ? without_lamps(white) : Dim{};
     const LitPicture picture{colour, dim, input.samples.patches()};
     const auto find = [&] { return surfaces_of(input, picture, white, fills); };
+    if (const CleanPlate& plate = input.samples.plate; !plate.empty()) {
+        auto with_plate = std::make_shared<FlatSurfaces>(find());
+        if (plate.covers) with_plate->of_plate = preview_surfaces(picture_of_plate(input), fills);
+        return with_plate;
+    }
     if (!input.samples.picture.empty()) {
         auto of_layer = std::make_shared<FlatSurfaces>(find());
         take_light_of_layer(input, *of_layer);

@@ -11,9 +11,10 @@
 namespace petzval::engine {
 
 struct FlatSurfaces {
-    Mixtures mixtures;        // pixels at silhouettes, separated
-    HiddenLayers hidden;      // what lies behind the visible surfaces
-    CleanPlate patches = {};  // replace what is hidden in their pixels; empty: there are none
+    Mixtures mixtures;      // pixels at silhouettes, separated
+    HiddenLayers hidden;    // what lies behind the visible surfaces
+    CleanPlate plate = {};  // patches replace what is hidden in their pixels; empty: there is none
+    std::shared_ptr<const FlatSurfaces> of_plate = {};  // of one that covers the frame
 
     // The surfaces of pixel (x, y) from the nearest, as emit(colour, coc_px, share): colour is premultiplied
     // by share, the part of the pixel that the surface takes up. share_alone: of a pixel that shows a single
@@ -23,16 +24,20 @@ struct FlatSurfaces {
                Emit&& emit) const {
         visit(*this, colour, coc_px, x, y, share_alone, emit);
     }
-    // The same with the patches.
+    // The same with the plate, which shows through the uncovered part of the picture.
     template <typename Emit>
-    void visit_with_patches(View<const Rgba> colour, View<const float> coc_px, int x, int y,
-                            Emit&& emit) const {
-        if (!is_patch(x, y)) return visit(colour, coc_px, x, y, 1, emit);
-        const float patch_px = patches.coc_px(x, y);
+    void visit_with_plate(View<const Rgba> colour, View<const float> coc_px, int x, int y,
+                          Emit&& emit) const {
+        if (!is_before(x, y)) return visit(colour, coc_px, x, y, 1, emit);
+        const float plate_px = plate.coc_px(x, y);
         visit(colour, coc_px, x, y, colour(x, y).a, [&](Rgba c, float coc, float share) {
-            if (is_before_plate(coc, patch_px)) emit(c, coc, share);
+            if (is_before_plate(coc, plate_px)) emit(c, coc, share);
         });
-        emit(patches.colour(x, y), patch_px, 1.0f);
+        if (plate.is_out_of_sight(x, y)) return;
+        if (of_plate)
+            of_plate->visit(plate.colour, plate.coc_px, x, y, 1, emit);
+        else
+            emit(plate.colour(x, y), plate_px, 1.0f);
     }
     // The same as visit(); what the emitted references change is changed here. Pixels may share hidden
     // surfaces.
@@ -41,9 +46,16 @@ struct FlatSurfaces {
         visit(*this, colour, coc_px, x, y, 1, emit);
     }
 
-    bool is_patch(int x, int y) const { return !patches.empty() && patches.is_stated(x, y); }
-    // Takes the picture's patches, and separates again the silhouettes in front of them.
-    void add_patches(const LitPicture& picture, View<const float> coc_px, Workers& workers);
+    // Adds a plate, unless it is empty, and separates again the silhouettes in front of it.
+    void add_plate(const CleanPlate& added, const LitPicture& picture, View<const float> coc_px,
+                   Workers& workers);
+    // True unless the plate hides a surface of the picture at this radius.
+    bool is_seen(int x, int y, float radius_px) const {
+        if (of_plate) return !plate.is_out_of_sight(x, y);
+        return !is_before(x, y) || is_before_plate(radius_px, plate.coc_px(x, y));
+    }
+    // True if the plate shows what lies behind (x, y).
+    bool is_before(int x, int y) const { return of_plate || (!plate.empty() && plate.is_stated(x, y)); }
     // True if the nearer surface takes up a part of the pixel worth drawing.
     static bool shows_near(const Mixture& m) { return m.near_share > 1e-3f || m.lights_near; }
 

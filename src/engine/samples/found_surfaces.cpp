@@ -19,7 +19,7 @@ FlatSurfaces found_surfaces(const EngineView& input, View<const unsigned char> c
         flat.hidden = fill_hidden(picture, coc_px, connected, flat.mixtures, input.samples.nearest_coc_px,
                                   input.samples.farthest_coc_px, fill, dim.white, workers);
     unmix_nearer(flat.mixtures, picture, flat.hidden, workers);
-    flat.add_patches(picture, coc_px, workers);
+    flat.add_plate(input.samples.plate, picture, coc_px, workers);
     return flat;
 }
 

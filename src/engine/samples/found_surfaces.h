@@ -6,7 +6,7 @@
 
 namespace petzval::engine {
 
-// The surfaces of the input's picture, with its patches.
+// The surfaces of the input's picture, with its plate.
 FlatSurfaces found_surfaces(const EngineView& input, View<const unsigned char> connected, const Dim& dim);
 // The lamps behind them that no pixel shows.
 HiddenLamps found_lamps(const EngineView& input, const FlatSurfaces& surfaces, const Dim& dim);

@@ -45,13 +45,13 @@ std::uint64_t name_of_surfaces(const EngineView& input, View<const Rgba> colour,
                                std::uint64_t rules, int every_row = 1);
 
 // The surfaces that the session keeps for this picture; without them, the result of find(). Names say
-// nothing of patches, so what is found with those is not kept.
+// nothing of plates, so what is found with those is not kept.
 template <typename Find>
 std::shared_ptr<const FoundSurfaces> kept_or_found(const EngineView& input, View<const Rgba> colour,
                                                    const Dim& dim, std::uint64_t rules, const Find& find) {
     constexpr int kEveryRow = 16;  // the whole name would cost every frame of a shot 1 to 2 %
     KeptSurfaces* const kept = input.services.surfaces;
-    if (!kept || !input.samples.patches().empty() ||
+    if (!kept || !input.samples.plate.empty() ||
         !kept->was_asked_for(name_of_surfaces(input, colour, dim, rules, kEveryRow)))
         return std::make_shared<const FoundSurfaces>(find());
     return kept->get(name_of_surfaces(input, colour, dim, rules), find);

@@ -7,7 +7,7 @@ namespace petzval::engine {
 
 std::vector<Rgba> guessed_shares(const EngineView& view, const CocSamples& complete) {
     std::vector<Rgba> shares(complete.samples.size());
-    if (view.samples.are_visible_stated() || view.options.fill == Fill::Off) return shares;
+    if (view.samples.are_stated() || view.options.fill == Fill::Off) return shares;
     constexpr float kSameRadiusPx = 0.25f;
     const auto is_given = [&](int x, int y, const CocSample& s) {
         return !view.samples.plate.empty() && view.samples.plate.is_stated(x, y) &&

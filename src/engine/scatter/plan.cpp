@@ -299,7 +299,7 @@ LevelRule level_rule(const EngineView& input) {
             rule = {.largest_cells = 12, .surfaces_for_sectors = 2, .inner_sectors = 3, .outer_sectors = 13};
             break;
     }
-    rule.hidden_known = input.samples.are_all_stated();
+    rule.hidden_known = input.samples.are_hidden_stated();
     if (rule.hidden_known && input.options.quality != Quality::Draft)
         rule.surfaces_for_sectors = 1, rule.inner_sectors = 3, rule.outer_sectors = 13;
     return rule;

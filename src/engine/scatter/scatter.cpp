@@ -128,7 +128,7 @@ Result<StripPlan> plan_strips(const EngineView& input, const LevelRule& rule, co
 
 HighlightRule bright_rule(const EngineView& frame) {
     return {.same_pixel_px = frame.samples.deep_dims_itself ? same_pixel_px(frame.lens.pixel_aspect) : 0,
-            .hidden_known = frame.samples.are_all_stated()};
+            .hidden_known = frame.samples.are_stated()};
 }
 
 // A run over the strips of a frame: each is completed, split, planned and drawn.

@@ -35,11 +35,12 @@ struct CleanPlate {
     View<const Rgba> colour;
     View<const float> coc_px;
     View<const unsigned char> is_stated;  // 0: the picture's own pixel, of which the plate says nothing
-    bool covers = true;                   // the frame; else it is patches, such as what other frames show
-    bool all = false;                     // also what no ray can reach: for those who look at samples
+    static constexpr unsigned char kOutOfSight = 2;  // of is_stated: no ray through the lens reaches it
+    bool covers = true;  // the frame; else it is patches, such as what other frames show
     bool empty() const { return coc_px.empty(); }
+    bool is_out_of_sight(int x, int y) const { return is_stated(x, y) == kOutOfSight; }
     CleanPlate part(const Rect& r) const {
-        return {colour.part(r), coc_px.part(r), is_stated.part(r), covers, all};
+        return {colour.part(r), coc_px.part(r), is_stated.part(r), covers};
     }
 };
 
@@ -69,11 +70,11 @@ struct Samples {
 
     // The picture that decisions look at, so that those of all layers agree.
     View<const Rgba> judged() const { return picture.empty() ? colour : picture; }
-    // True if `deep` states every surface: of a deep file, of hidden layers, of a plate that covers the
-    // frame.
-    bool are_all_stated() const { return !deep.empty() && (plate.empty() || plate.covers); }
-    // True if `deep` states the visible surfaces too, apart in every pixel; a plate leaves them as they are.
-    bool are_visible_stated() const { return !deep.empty() && plate.empty(); }
+    // True if `deep` states every surface, apart in every pixel: of a deep file, of hidden layers. A plate
+    // leaves the visible ones as they are.
+    bool are_stated() const { return !deep.empty() && plate.empty(); }
+    // True if nothing hidden is estimated but what the plate hides itself.
+    bool are_hidden_stated() const { return !deep.empty() && plate.covers; }
     // The plate, where it does not cover the frame; else empty.
     CleanPlate patches() const { return plate.covers ? CleanPlate{} : plate; }
     // Rows y0…y1-1 alone.

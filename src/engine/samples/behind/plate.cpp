@@ -91,6 +91,15 @@ BackPicture back_picture(const StatedPicture& p, Workers& workers) {
     return back;
 }
 
+void BackPicture::mark_out_of_sight(const CocSamples& left) {
+    for (int y = 0; y < is_stated.height(); ++y)
+        for (int x = 0; x < is_stated.width(); ++x) {
+            const auto samples = CocSamplesView(left).at(x, y);
+            if (is_stated(x, y) && !samples.empty() && is_before_plate(samples.back().coc_px, coc_px(x, y)))
+                is_stated(x, y) = CleanPlate::kOutOfSight;
+        }
+}
+
 void unmix_before_plate(Mixtures& mixtures, const LitPicture& picture, View<const float> coc_px,
                         const CleanPlate& plate, Workers& workers) {
     const LitPicture back{plate.colour, picture.dim_of};

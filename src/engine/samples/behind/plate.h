@@ -18,11 +18,20 @@ struct BackPicture {
     Image<unsigned char> is_stated;  // by the plate
     bool covers = true;              // as in CleanPlate
     bool empty() const { return coc_px.empty(); }
-    CleanPlate view(bool all) const { return {colour, coc_px, is_stated, covers, all}; }
+    // Marks what drop_out_of_sight() left out of picture and plate.
+    void mark_out_of_sight(const CocSamples& left);
+    CleanPlate view() const { return {colour, coc_px, is_stated, covers}; }
 };
 
 // Empty unless `behind` is a plate: no more than one sample in any pixel.
 BackPicture back_picture(const StatedPicture& picture, Workers& workers);
+
+// The picture that the input's plate is.
+inline EngineView picture_of_plate(EngineView input) {
+    const CleanPlate plate = input.samples.plate;
+    input.samples.colour = plate.colour, input.samples.coc_px = plate.coc_px, input.samples.plate = {};
+    return input;
+}
 
 // A surface nearer than the plate by less than this hides next to nothing of it.
 inline bool is_before_plate(float coc_px, float plate_px) {
