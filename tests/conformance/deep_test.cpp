@@ -322,5 +322,57 @@ TEST(Deep, GatherShowsNoSkyThroughAFloorThatGoesOutOfFocus) {
     }
 }
 
+// A renderer's file ends each pixel at its first opaque sample. A card before a wall.
+TEST(Deep, WhatAnOpaqueSampleHidesIsEstimatedAsInAFlatPicture) {
+    constexpr int kWidth = 120, kHeight = 60;
+    constexpr Rect kCard{40, 0, 70, kHeight};
+    const auto wall = [](int x) {
+        const float light = 0.6f + 0.3f * std::sin(0.05f * float(x));
+        return surface({light, 0.2f, 1 - light, 1}, 5);
+    };
+    const DeepSample card = surface({0.1f, 0.3f, 0.1f, 1}, -6);
+    const auto shot = [&](bool states_all) {
+        return DeepShot::make(kWidth, kHeight, [&](int x, int y) {
+            if (!kCard.contains(x, y)) return Samples{wall(x)};
+            return states_all ? Samples{card, wall(x)} : Samples{card};
+        });
+    };
+    const DeepShot ends = shot(false), whole = shot(true);
+    const Picture truth = rendered(whole.job("reference"));
+    for (const auto& [engine, gained] : {std::pair{"scatter", 3.0}, {"gather", -1.0}}) {
+        DefocusJob job = ends.job(engine), flat = ends.job(engine);
+        flat.deep = nullptr;
+        const double estimated = psnr_inside(truth, rendered(job), 12);
+        EXPECT_GT(estimated, psnr_inside(truth, rendered(flat), 12) - 0.5) << engine;
+        job.fill = Fill::Off;
+        EXPECT_GT(estimated, psnr_inside(truth, rendered(job), 12) + gained) << engine;
+    }
+}
+
+// A card with mixed sides before a wall, and a lamp beside it.
+TEST(Deep, OfOneOpaqueSampleInEachPixelIsDrawnAsAFlatPicture) {
+    Shot flat_shot = flat(110, 70, {}, 6);
+    paint_rectangles(flat_shot.colour, 17);
+    for (int v = 30; v < 32; ++v)
+        for (int u = 62; u < 64; ++u) flat_shot.colour(u, v) = {80, 70, 50, 1};
+    const Rgba card{0.1f, 0.3f, 0.2f, 1};
+    for (int y = 0; y < 70; ++y)
+        for (int x = 40; x <= 60; ++x) {
+            const float part = x == 40 || x == 60 ? 0.4f : 1.0f;
+            flat_shot.colour(x, y) = part * card + (1 - part) * flat_shot.colour(x, y);
+            if (part == 1) flat_shot.coc_px(x, y) = -5;
+        }
+    const DeepPicture deep = DeepShot::picture(110, 70, [&](int x, int y) {
+        return Samples{surface(flat_shot.colour(x, y), flat_shot.coc_px(x, y))};
+    });
+    // gather draws given samples in finer steps of radius.
+    for (const auto& [engine, least] : {std::pair{"scatter", 60.0}, {"gather", 40.0}}) {
+        DefocusJob job = flat_shot.job(engine);
+        const Picture expected = rendered(job);
+        job.deep = &deep;
+        EXPECT_GT(psnr_inside(expected, rendered(job), 0), least) << engine;
+    }
+}
+
 }  // namespace
 }  // namespace petzval::conformance

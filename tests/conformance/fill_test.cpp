@@ -104,12 +104,14 @@ TEST(FillingNothing, IsSaidOfWhatNeedsNone) {
         EXPECT_EQ(idle.front().field, "fill");
     }
     const Shot shot = red_before_blue();
-    const DeepPicture deep =
+    const DeepPicture layers =
         DeepPicture::made_of(kSize, kSize, [&](int x, int y, std::vector<DeepSample>& samples) {
-            samples.push_back({shot.colour(x, y), shot.coc_px(x, y), shot.coc_px(x, y)});
+            const float coc_px = shot.coc_px(x, y);
+            samples.push_back({shot.colour(x, y), coc_px, coc_px});
+            samples.push_back({shot.colour(x, y), coc_px + 9, coc_px + 9});
         });
     DefocusJob job = shot.job("scatter");
-    job.deep = &deep, job.fill = Fill::Off;
+    job.behind = &layers, job.fill = Fill::Off;
     const auto report = defocus(job);
     ASSERT_TRUE(report);
     ASSERT_EQ(report->warnings.size(), 1u);

@@ -168,6 +168,22 @@ TEST(Guessed, WhatAPatchOfPlateLeavesOutIsMarked) {
     }
 }
 
+// A renderer's deep file ends each pixel at its first opaque sample.
+TEST(Guessed, WhatADeepPixelDoesNotStateIsMarked) {
+    const Shot shot = a_square();
+    const Picture flat = view_of(shot, ScatterView::Guessed).image;
+    const DeepPicture deep =
+        DeepPicture::made_of(96, 64, [&](int x, int y, std::vector<DeepSample>& samples) {
+            samples.push_back({shot.colour(x, y), shot.coc_px(x, y), shot.coc_px(x, y)});
+        });
+    DefocusJob job = shot.job("scatter");
+    job.deep = &deep, job.scatter.view = ScatterView::Guessed;
+    const auto report = defocus(job);
+    ASSERT_TRUE(report);
+    EXPECT_LT(largest_difference(report->image, flat), 0.1);
+    EXPECT_GT(report->image(31, 32).r, 0.2f);
+}
+
 TEST(Guessed, NothingIsMarkedWithoutFill) {
     const Picture full = view_of(a_square(), ScatterView::Guessed).image;
     Shot off = a_square();

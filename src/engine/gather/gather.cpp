@@ -83,7 +83,7 @@ public:
     Result<Output> run(const char* engine) {
         Stopwatch watch(stages_);
         const BrightPoints found(frame_);
-        if (BrightPoints::are_looked_for(frame_)) watch.lap("bright points");
+        if (frame_.options.lights().find) watch.lap("bright points");
         const Strips strips = plan_strips(frame_, sizes_, found);
         if (frame_.services.max_memory_bytes > 0 && frame_.services.max_memory_bytes < strips.least_bytes)
             return too_little_memory(engine, strips.least_bytes);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "engine/gather/gather_rings.h"
+#include "engine/samples/deep/end_of_pixel.h"
 #include "engine/samples/flat_surfaces.h"
 #include "engine/samples/seen_first.h"
 #include "engine/waist/engine.h"
@@ -31,8 +32,12 @@ struct CellLight {
 
 // Emits each sample of a deep pixel, dimmed by the samples in front of it: by a translucent one always, by an
 // opaque one if it is so close in front that no ray passes it. The rest of a straight ray is emptiness.
+// What opaque ones hide is estimated: `surfaces`. They also separate silhouettes in flat pixels.
 template <typename Emit>
-void for_each_deep_sample(const EngineView& input, int x, int y, Emit& emit) {
+void for_each_deep_sample(const EngineView& input, const FlatSurfaces& surfaces, int x, int y, Emit& emit) {
+    const EndOfDeepPixel end(input.samples.deep.at(x, y));
+    if (is_flat_pixel(input.samples.deep, x, y))
+        return surfaces.visit(input.samples.colour, input.samples.coc_px, x, y, 1, emit);
     float open = 1, last_px = input.samples.coc_px(x, y), front_px = -1e30f;
     for (const CocSample& s : input.samples.deep.at(x, y)) {
         const float a = s.colour.a,
@@ -42,6 +47,8 @@ void for_each_deep_sample(const EngineView& input, int x, int y, Emit& emit) {
         last_px = front_px = s.coc_px;
     }
     if (open > 0) emit(Rgba{}, last_px, open);
+    for (const Hidden& h : surfaces.hidden.at(x, y))
+        if (end.is_before(h.coc_px)) emit(h.colour, h.coc_px, h.share);
 }
 
 // The samples that a gather takes from one pixel, as emit(colour, coc_px, covered, hidden).
@@ -50,7 +57,7 @@ void for_each_sample(const EngineView& input, const FlatSurfaces& surfaces, int 
     SeenFirst take(emit);
     if (!input.samples.are_stated())
         return surfaces.visit_with_plate(input.samples.colour, input.samples.coc_px, x, y, take);
-    if (input.samples.deep_dims_itself) return for_each_deep_sample(input, x, y, take);
+    if (input.samples.deep_dims_itself) return for_each_deep_sample(input, surfaces, x, y, take);
     for (const CocSample& s : input.samples.deep.at(x, y))
         take(s.colour, s.coc_px, s.colour == Rgba{} ? 1.0f : s.colour.a);
 }

@@ -102,7 +102,7 @@ GatherPlan plan_gather(const EngineView& strip, const Rect& rows, int first_row,
     std::vector<float> largest(tiles.size());
     parallel_for(int(tiles.size()), *strip.services.workers,
                  [&](int i) { largest[std::size_t(i)] = largest_px(strip, tiles[std::size_t(i)]); });
-    if (!strip.samples.are_stated())
+    if (!strip.samples.are_stated() || strip.samples.deep_dims_itself)
         plan.surfaces = preview_surfaces(
             strip, strip.options.fill != Fill::Off && strip.options.of<GatherOwn>().gather.fill_hidden);
     for (int level = 0; level < sizes.levels(); ++level) {

@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 #include "engine/lights/highlights.h"
 #include "engine/samples/behind/plate.h"
+#include "engine/samples/deep/end_of_pixel.h"
 #include "engine/samples/seen_first.h"
 #include "laws/surfaces.h"
 
@@ -25,7 +26,7 @@ float share_that_stays(const HighlightSplit& split, int x, int y, float coc_px, 
 }  // namespace
 
 BrightPoints::BrightPoints(const EngineView& frame) : frame_(frame) {
-    if (!are_looked_for(frame)) return;
+    if (!frame.options.lights().find) return;
     const HighlightSplit split(frame, {.factor = float(frame.options.lights().bright_factor),
                                        .least_floor = 1,
                                        .floor_at_1px = 0,
@@ -48,14 +49,18 @@ BrightPoints::Row BrightPoints::row(const HighlightSplit& split, int y) const {
     const View<const Rgba> judged = frame_.samples.judged();
     Row row;
     for (int x = 0; x < frame_.width(); ++x) {
-        if (frame_.samples.are_stated()) {
+        const CocSamplesView& deep = frame_.samples.deep;
+        const bool is_stated = frame_.samples.are_stated();
+        if (frame_.samples.deep_dims_itself && !is_flat_pixel(deep, x, y)) continue;
+        if (is_stated && !frame_.samples.deep_dims_itself) {
             find_in_samples(split, x, y, row);
             continue;
         }
         const float stays = share_that_stays(split, x, y, frame_.samples.coc_px(x, y), judged(x, y));
         if (stays < 1)
             row.add(x, y, radius_of_brightest(judged, frame_.samples.coc_px, x, y),
-                    (1 - stays) * frame_.samples.colour(x, y), {stays, 1, 0});
+                    (1 - stays) * frame_.samples.colour(x, y),
+                    {stays, 1, is_stated ? std::size_t(deep.at(x, y).data() - deep.samples().data()) : 0});
         const CleanPlate& plate = frame_.samples.plate;
         if (plate.empty() || plate.is_out_of_sight(x, y) ||
             !is_before_plate(frame_.samples.coc_px(x, y), plate.coc_px(x, y)))

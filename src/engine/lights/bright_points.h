@@ -16,13 +16,10 @@ class HighlightSplit;
 // picture give the same shares of their light as the picture (Samples::judged()).
 class BrightPoints {
 public:
-    // Bright points of a frame, which outlives this; none unless sprites.find is set. Pictures whose samples
-    // dim each other have none, because dimming within a light's own pixel is not searched.
+    // Bright points of a frame, which outlives this; none unless sprites.find is set. If samples dim each
+    // other, only flat pixels have them (is_flat_pixel()), because dimming within a pixel is not searched.
     explicit BrightPoints(const EngineView& frame);
 
-    static bool are_looked_for(const EngineView& frame) {
-        return frame.options.lights().find && !frame.samples.deep_dims_itself;
-    }
     bool empty() const { return sprites_.empty(); }
     std::span<const Sprite> sprites() const { return sprites_; }
     std::size_t count() const { return sprites_.size(); }

@@ -2,6 +2,7 @@
 
 #include "base/content_hash.h"
 #include "base/parallel.h"
+#include "engine/samples/deep/end_of_pixel.h"
 #include "engine/samples/seen_share.h"
 #include "engine/samples/white.h"
 #include "image/two_sweeps.h"
@@ -56,7 +57,7 @@ float radius_of_brightest(View<const Rgba> colour, View<const float> coc_px, int
 HighlightSplit::HighlightSplit(const EngineView& input, const HighlightRule& rule)
     : rule_(rule),
       colour_(input.samples.judged()),
-      radii_known_(input.samples.are_stated()),
+      stated_(input.samples.are_stated() ? input.samples.deep : CocSamplesView{}),
       coc_px_(input.samples.coc_px),
       width_(input.width()),
       height_(input.height()) {
@@ -121,8 +122,12 @@ Rgba HighlightSplit::dim(int x, int y, Rgba light) const {
     return {scaled.r, scaled.g, scaled.b, light.a};
 }
 
+bool HighlightSplit::knows_radii(int x, int y) const {
+    return !stated_.empty() && !(rule_.same_pixel_px > 0 && is_flat_pixel(stated_, x, y));
+}
+
 float HighlightSplit::radius_of_light(int x, int y, float coc_px) const {
-    if (radii_known_ || dim(x, y, colour_(x, y)) == colour_(x, y)) return coc_px;
+    if (knows_radii(x, y) || dim(x, y, colour_(x, y)) == colour_(x, y)) return coc_px;
     const float coc = radius_of_brightest(colour_, coc_px_, x, y);
     return laws::same_surface(laws::kConnected, coc, coc_px) ? coc : coc_px;
 }
@@ -268,18 +273,20 @@ void take_pixel(const Rows& rows, int x, int y, std::optional<Block>& block, std
         const Rgba base = split.base(x, rows.first_row + y, sample.coc_px, sample.colour);
         if (base == sample.colour) continue;
         const auto up_to_this = std::span(samples.samples).subspan(first, k + 1 - first);
+        const Rgba taken = sample.colour - base;
+        const bool is_deep = same_pixel_px > 0 && split.knows_radii(x, rows.first_row + y);
+        const bool is_shown = !is_deep && is_beside(up_to_this) &&
+                              shown + luminance(taken) <= split.shown(x, rows.first_row + y);
         float leaves = 1;
-        if (same_pixel_px > 0)
+        if (is_deep)
             leaves = share_that_leaves(up_to_this, same_pixel_px);
-        else if (split.rule().hidden_known)
+        else if (split.rule().hidden_known && same_pixel_px == 0)
             leaves = not_covered(up_to_this);
         if (leaves <= 0) continue;  // what covers it hides it in the base
-        const Rgba taken = sample.colour - base;
+        shown += luminance(taken);
         const float coc = std::clamp(split.radius_of_light(x, rows.first_row + y, sample.coc_px),
                                      -kWidestHighlightPx, kWidestHighlightPx);
         const PartOfPixel part = split.part_of_lamp(x, rows.first_row + y);
-        shown += luminance(taken);
-        const bool is_shown = is_beside(up_to_this) && shown <= split.shown(x, rows.first_row + y);
         sample.colour = base;
         if (in_block) {
             out.push_back({x, y, 1, coc, leaves * taken, part, is_shown});

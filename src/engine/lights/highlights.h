@@ -73,6 +73,8 @@ public:
     // The radius of a lamp's light in pixel (x, y): that of the brightest pixel around, unless that is
     // another surface, which the separation of silhouettes handles. Samples of a deep picture know it.
     float radius_of_light(int x, int y, float coc_px) const;
+    // True if the samples of pixel (x, y) state its lamps apart, with their radii.
+    bool knows_radii(int x, int y) const;
     // The part of pixel (x, y) that a lamp fills; a point where none does.
     PartOfPixel part_of_lamp(int x, int y) const;
     // Up to this luminance, times its coverage, dim() leaves light as it is.
@@ -99,7 +101,7 @@ private:
 
     HighlightRule rule_;
     View<const Rgba> colour_;
-    bool radii_known_;  // by each sample
+    CocSamplesView stated_;  // samples that know the radii of their lamps; may be empty
     View<const float> coc_px_;
     int width_, height_;
     float white_ = 0;

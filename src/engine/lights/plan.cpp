@@ -80,7 +80,8 @@ void LightsPlanner::find_viewpoints() {
         if (first[v] != kShared) viewpoints_[v] = own_viewpoint(highlights_[first[v]]);
     // In a deep picture, what lies nearer within one pixel is itself.
     const float least = input_.samples.deep_dims_itself ? same_pixel_px(input_.lens.pixel_aspect) : 0;
-    for (Viewpoint& v : viewpoints_) v.own_surface_px = std::max(v.own_surface_px, least);
+    for (Viewpoint& v : viewpoints_)
+        if (!v.is_shown) v.own_surface_px = std::max(v.own_surface_px, least);
 }
 
 device::KernelAsk LightsPlanner::ask(const Highlight& h) const {

@@ -39,7 +39,7 @@ CompletedPicture::CompletedPicture(const EngineView& input, View<const unsigned 
                                    const Dim& dim)
     : height_(input.height()) {
     if (input.samples.are_stated())
-        parts_ = std::make_unique<GivenSamples>(deep_completed(input));
+        parts_ = std::make_unique<GivenSamples>(deep_completed(input, connected, dim));
     else
         parts_ = flat_picture(input, connected, dim);
 }

@@ -1,10 +1,7 @@
 #include "engine/samples/flat_picture.h"
 
 #include "base/parallel.h"
-#include "engine/samples/behind/plate.h"
 #include "engine/samples/found_surfaces.h"
-#include "engine/samples/hidden.h"
-#include "engine/samples/kept_surfaces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,29 +18,11 @@ CocSample sample(Rgba colour, float coc_px, float share) {
     return {colour, coc_px, coc_px, empty > 1e-3f ? empty : 0};
 }
 
-std::shared_ptr<const FoundSurfaces> found(const EngineView& input, View<const unsigned char> connected,
-                                           const Dim& dim) {
-    const std::uint64_t rules =
-        1 + 16 * std::uint64_t(input.options.quality) + 256 * std::uint64_t(input.options.fill);
-    return kept_or_found(input, input.samples.colour, dim, rules, [&] {
-        FoundSurfaces s{found_surfaces(input, connected, dim), {}};
-        if (const CleanPlate& plate = input.samples.plate; !plate.empty() && plate.covers) {
-            const auto behind =
-                found(picture_of_plate(input), connections(plate.coc_px, *input.services.workers), dim);
-            s.flat.of_plate = {behind, &behind->flat};
-            s.lamps = behind->lamps;
-        } else {
-            s.lamps = found_lamps(input, s.flat, dim);
-        }
-        return s;
-    });
-}
-
 // The surfaces of a picture, separated and completed.
 class FlatPicture final : public CompletedPicture::Parts {
 public:
     FlatPicture(const EngineView& input, View<const unsigned char> connected, const Dim& dim)
-        : input_(input), found_(found(input, connected, dim)) {
+        : input_(input), found_(surfaces_and_lamps(input, connected, dim)) {
         count();
     }
 

@@ -1,6 +1,8 @@
 #include "engine/samples/found_surfaces.h"
 
 #include "engine/samples/behind/known_surfaces.h"
+#include "engine/samples/behind/plate.h"
+#include "engine/samples/connectivity.h"
 
 namespace petzval::engine {
 
@@ -27,6 +29,24 @@ HiddenLamps found_lamps(const EngineView& input, const FlatSurfaces& surfaces, c
     if (!dim || input.options.fill != Fill::Full) return {};
     return lamps_behind({input.samples.colour, dim}, input.samples.coc_px, surfaces.mixtures,
                         *input.services.workers);
+}
+
+std::shared_ptr<const FoundSurfaces> surfaces_and_lamps(const EngineView& input,
+                                                        View<const unsigned char> connected, const Dim& dim) {
+    const std::uint64_t rules =
+        1 + 16 * std::uint64_t(input.options.quality) + 256 * std::uint64_t(input.options.fill);
+    return kept_or_found(input, input.samples.colour, dim, rules, [&] {
+        FoundSurfaces s{found_surfaces(input, connected, dim), {}};
+        if (const CleanPlate& plate = input.samples.plate; !plate.empty() && plate.covers) {
+            const auto behind = surfaces_and_lamps(picture_of_plate(input),
+                                                   connections(plate.coc_px, *input.services.workers), dim);
+            s.flat.of_plate = {behind, &behind->flat};
+            s.lamps = behind->lamps;
+        } else {
+            s.lamps = found_lamps(input, s.flat, dim);
+        }
+        return s;
+    });
 }
 
 }  // namespace petzval::engine

@@ -46,10 +46,10 @@ std::size_t lights_bytes(const EngineView& input, const HighlightSplit& split) {
 double samples_per_pixel(const EngineView& input) {
     constexpr double kPerSilhouettePixel = 3.2, kPerHidingPixel = 0.8;
     const double pixels = double(input.width()) * double(input.height());
-    if (!input.samples.deep.empty())
-        return std::max(1.0, double(input.samples.deep.samples().size()) / pixels);
+    const double stated = std::max(1.0, double(input.samples.deep.samples().size()) / pixels);
+    if (input.samples.are_hidden_stated() && !input.samples.deep_dims_itself) return stated;
     const Silhouettes silhouettes = silhouettes_of(input.samples.coc_px, *input.services.workers);
-    return 1 + kPerSilhouettePixel * silhouettes.at + kPerHidingPixel * silhouettes.hiding;
+    return stated + kPerSilhouettePixel * silhouettes.at + kPerHidingPixel * silhouettes.hiding;
 }
 
 double layer_bytes_per_pixel(std::size_t layers, double samples) {

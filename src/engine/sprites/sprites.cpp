@@ -59,8 +59,9 @@ Result<Output> run_sprites(const EngineView& input, Spare) {
             background.seconds += stage.seconds;
     }
     output->stages = {background, sprites};
-    if (input.options.lights().find && !BrightPoints::are_looked_for(input))
-        output->warnings.emplace_back("bright points are not looked for in deep pictures");
+    if (input.options.lights().find && input.samples.deep_dims_itself)
+        output->warnings.emplace_back(
+            "bright points are not looked for where pixels of a deep picture have several samples");
     return output;
 }
 
