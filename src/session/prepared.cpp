@@ -202,8 +202,6 @@ void PreparedFrame::take_samples(const FrameRequest& request, View<const float> 
     if (!plate_.empty()) seen.plate = plate_.view();
     if (!samples_.first.empty()) seen.deep = samples_;
     seen.deep_dims_itself = request.rendered.deep && !request.rendered.deep->empty();
-    if (request.look.fill != Fill::Full && seen.are_stated() && !seen.deep_dims_itself)
-        warnings.emplace_back("job.fill has no effect where all samples of a pixel are given");
     if (request.rendered.holdout && !request.rendered.holdout->empty())
         seen.holdout = holdout_ = engine::deep_samples(*request.rendered.holdout, meaning, *request.workers);
 }

@@ -32,9 +32,8 @@ class Fields(CommandLineTest):
         self.succeed("scene", "make", "bars", "-o", "in.exr", "--layers", "hidden.exr", "--width", "64", "--height", "36", "-q")
         said = self.succeed("defocus", "in.exr", "-o", "out.exr", "--engine", "reference", "--pupil-points", "16").err
         self.assertIn("supply it as --plate", said)
-        said = self.succeed("defocus", "in.exr", "-o", "out.exr", "--engine", "gather", "--fill", "off", "--behind",
-                            "hidden.exr").err
-        self.assertIn("--fill has no effect", said)
+        said = self.succeed("defocus", "in.exr", "-o", "out.exr", "--engine", "gaussian", "--behind", "hidden.exr").err
+        self.assertIn("--plate has no effect with --engine gaussian", said)
 
 
 if __name__ == "__main__":

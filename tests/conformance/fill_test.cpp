@@ -103,19 +103,6 @@ TEST(FillingNothing, IsSaidOfWhatNeedsNone) {
         ASSERT_EQ(idle.size(), 1u) << look->engine;
         EXPECT_EQ(idle.front().field, "fill");
     }
-    const Shot shot = red_before_blue();
-    const DeepPicture layers =
-        DeepPicture::made_of(kSize, kSize, [&](int x, int y, std::vector<DeepSample>& samples) {
-            const float coc_px = shot.coc_px(x, y);
-            samples.push_back({shot.colour(x, y), coc_px, coc_px});
-            samples.push_back({shot.colour(x, y), coc_px + 9, coc_px + 9});
-        });
-    DefocusJob job = shot.job("scatter");
-    job.behind = &layers, job.fill = Fill::Off;
-    const auto report = defocus(job);
-    ASSERT_TRUE(report);
-    ASSERT_EQ(report->warnings.size(), 1u);
-    EXPECT_TRUE(report->warnings.front().starts_with("job.fill has no effect")) << report->warnings.front();
 }
 
 }  // namespace

@@ -271,5 +271,20 @@ TEST(Plate, HidesWhatIsEstimatedLikeAPicture) {
     }
 }
 
+TEST(Plate, LayersOfOnePixelChangeNothingFarFromIt) {
+    for (const auto& [engine, most] : {std::pair{"scatter", 0.02f}, {"gather", 0.01f}}) {
+        CardBeforeWall scene;
+        const Picture without = rendered(scene.shot.job(engine));
+        scene.shot.behind =
+            DeepPicture::made_of(kWidth, kHeight, [&](int x, int y, std::vector<DeepSample>& samples) {
+                if (x != kWidth - 4 || y != 4) return;
+                samples.push_back({{0.2f, 0.2f, 0.2f, 1}, 8, 8});
+                samples.push_back({{0.2f, 0.2f, 0.2f, 1}, 9, 9});
+            });
+        const Rect far{0, 30, kWidth - 30, kHeight};
+        EXPECT_LT(largest_change(rendered(scene.shot.job(engine)), without, far), most) << engine;
+    }
+}
+
 }  // namespace
 }  // namespace petzval::conformance

@@ -32,12 +32,8 @@ struct CellLight {
 
 // Emits each sample of a deep pixel, dimmed by the samples in front of it: by a translucent one always, by an
 // opaque one if it is so close in front that no ray passes it. The rest of a straight ray is emptiness.
-// What opaque ones hide is estimated: `surfaces`. They also separate silhouettes in flat pixels.
 template <typename Emit>
-void for_each_deep_sample(const EngineView& input, const FlatSurfaces& surfaces, int x, int y, Emit& emit) {
-    const EndOfDeepPixel end(input.samples.deep.at(x, y));
-    if (is_flat_pixel(input.samples.deep, x, y))
-        return surfaces.visit(input.samples.colour, input.samples.coc_px, x, y, 1, emit);
+void for_each_deep_sample(const EngineView& input, int x, int y, Emit& emit) {
     float open = 1, last_px = input.samples.coc_px(x, y), front_px = -1e30f;
     for (const CocSample& s : input.samples.deep.at(x, y)) {
         const float a = s.colour.a,
@@ -47,19 +43,25 @@ void for_each_deep_sample(const EngineView& input, const FlatSurfaces& surfaces,
         last_px = front_px = s.coc_px;
     }
     if (open > 0) emit(Rgba{}, last_px, open);
-    for (const Hidden& h : surfaces.hidden.at(x, y))
-        if (end.is_before(h.coc_px)) emit(h.colour, h.coc_px, h.share);
 }
 
-// The samples that a gather takes from one pixel, as emit(colour, coc_px, covered, hidden).
+// The samples that a gather takes from one pixel, as emit(colour, coc_px, covered, hidden). `surfaces`: those
+// estimated behind opaque samples.
 template <typename Emit>
 void for_each_sample(const EngineView& input, const FlatSurfaces& surfaces, int x, int y, const Emit& emit) {
     SeenFirst take(emit);
     if (!input.samples.are_stated())
         return surfaces.visit_with_plate(input.samples.colour, input.samples.coc_px, x, y, take);
-    if (input.samples.deep_dims_itself) return for_each_deep_sample(input, surfaces, x, y, take);
-    for (const CocSample& s : input.samples.deep.at(x, y))
-        take(s.colour, s.coc_px, s.colour == Rgba{} ? 1.0f : s.colour.a);
+    if (is_flat_pixel(input.samples.deep, x, y))
+        return surfaces.visit(input.samples.colour, input.samples.coc_px, x, y, 1, take);
+    if (input.samples.deep_dims_itself)
+        for_each_deep_sample(input, x, y, take);
+    else
+        for (const CocSample& s : input.samples.deep.at(x, y))
+            take(s.colour, s.coc_px, s.colour == Rgba{} ? 1.0f : s.colour.a);
+    const EndOfDeepPixel end(input.samples.deep.at(x, y));
+    for (const Hidden& h : surfaces.hidden.at(x, y))
+        if (end.is_before(h.coc_px)) take(h.colour, h.coc_px, h.share);
 }
 
 class CellLevel {

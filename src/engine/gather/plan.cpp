@@ -102,9 +102,8 @@ GatherPlan plan_gather(const EngineView& strip, const Rect& rows, int first_row,
     std::vector<float> largest(tiles.size());
     parallel_for(int(tiles.size()), *strip.services.workers,
                  [&](int i) { largest[std::size_t(i)] = largest_px(strip, tiles[std::size_t(i)]); });
-    if (!strip.samples.are_stated() || strip.samples.deep_dims_itself)
-        plan.surfaces = preview_surfaces(
-            strip, strip.options.fill != Fill::Off && strip.options.of<GatherOwn>().gather.fill_hidden);
+    plan.surfaces = preview_surfaces(
+        strip, strip.options.fill != Fill::Off && strip.options.of<GatherOwn>().gather.fill_hidden);
     for (int level = 0; level < sizes.levels(); ++level) {
         plan.reach.push_back(kernels.reach(level));
         if (level > 0) plan.levels.emplace_back(strip, *plan.surfaces, sizes, level);

@@ -51,9 +51,8 @@ BrightPoints::Row BrightPoints::row(const HighlightSplit& split, int y) const {
     for (int x = 0; x < frame_.width(); ++x) {
         const CocSamplesView& deep = frame_.samples.deep;
         const bool is_stated = frame_.samples.are_stated();
-        if (frame_.samples.deep_dims_itself && !is_flat_pixel(deep, x, y)) continue;
-        if (is_stated && !frame_.samples.deep_dims_itself) {
-            find_in_samples(split, x, y, row);
+        if (is_stated && !is_flat_pixel(deep, x, y)) {
+            if (!frame_.samples.deep_dims_itself) find_in_samples(split, x, y, row);
             continue;
         }
         const float stays = share_that_stays(split, x, y, frame_.samples.coc_px(x, y), judged(x, y));

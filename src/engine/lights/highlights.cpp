@@ -122,12 +122,10 @@ Rgba HighlightSplit::dim(int x, int y, Rgba light) const {
     return {scaled.r, scaled.g, scaled.b, light.a};
 }
 
-bool HighlightSplit::knows_radii(int x, int y) const {
-    return !stated_.empty() && !(rule_.same_pixel_px > 0 && is_flat_pixel(stated_, x, y));
-}
+bool HighlightSplit::is_flat(int x, int y) const { return !stated_.empty() && is_flat_pixel(stated_, x, y); }
 
 float HighlightSplit::radius_of_light(int x, int y, float coc_px) const {
-    if (knows_radii(x, y) || dim(x, y, colour_(x, y)) == colour_(x, y)) return coc_px;
+    if ((!stated_.empty() && !is_flat(x, y)) || dim(x, y, colour_(x, y)) == colour_(x, y)) return coc_px;
     const float coc = radius_of_brightest(colour_, coc_px_, x, y);
     return laws::same_surface(laws::kConnected, coc, coc_px) ? coc : coc_px;
 }
@@ -274,13 +272,13 @@ void take_pixel(const Rows& rows, int x, int y, std::optional<Block>& block, std
         if (base == sample.colour) continue;
         const auto up_to_this = std::span(samples.samples).subspan(first, k + 1 - first);
         const Rgba taken = sample.colour - base;
-        const bool is_deep = same_pixel_px > 0 && split.knows_radii(x, rows.first_row + y);
+        const bool is_flat = split.is_flat(x, rows.first_row + y), is_deep = same_pixel_px > 0 && !is_flat;
         const bool is_shown = !is_deep && is_beside(up_to_this) &&
                               shown + luminance(taken) <= split.shown(x, rows.first_row + y);
         float leaves = 1;
         if (is_deep)
             leaves = share_that_leaves(up_to_this, same_pixel_px);
-        else if (split.rule().hidden_known && same_pixel_px == 0)
+        else if (split.rule().hidden_known && !is_flat)
             leaves = not_covered(up_to_this);
         if (leaves <= 0) continue;  // what covers it hides it in the base
         shown += luminance(taken);

@@ -73,8 +73,8 @@ public:
     // The radius of a lamp's light in pixel (x, y): that of the brightest pixel around, unless that is
     // another surface, which the separation of silhouettes handles. Samples of a deep picture know it.
     float radius_of_light(int x, int y, float coc_px) const;
-    // True if the samples of pixel (x, y) state its lamps apart, with their radii.
-    bool knows_radii(int x, int y) const;
+    // True if (x, y), in a picture of stated samples, is a pixel as of a flat picture.
+    bool is_flat(int x, int y) const;
     // The part of pixel (x, y) that a lamp fills; a point where none does.
     PartOfPixel part_of_lamp(int x, int y) const;
     // Up to this luminance, times its coverage, dim() leaves light as it is.

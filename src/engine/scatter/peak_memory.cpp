@@ -47,7 +47,7 @@ double samples_per_pixel(const EngineView& input) {
     constexpr double kPerSilhouettePixel = 3.2, kPerHidingPixel = 0.8;
     const double pixels = double(input.width()) * double(input.height());
     const double stated = std::max(1.0, double(input.samples.deep.samples().size()) / pixels);
-    if (input.samples.are_hidden_stated() && !input.samples.deep_dims_itself) return stated;
+    if (!input.samples.plate.empty() && input.samples.plate.covers) return stated;
     const Silhouettes silhouettes = silhouettes_of(input.samples.coc_px, *input.services.workers);
     return stated + kPerSilhouettePixel * silhouettes.at + kPerHidingPixel * silhouettes.hiding;
 }

@@ -73,7 +73,7 @@ struct Samples {
     // True if `deep` states every surface, apart in every pixel: of a deep file, of hidden layers. A plate
     // leaves the visible ones as they are.
     bool are_stated() const { return !deep.empty() && plate.empty(); }
-    // True if nothing hidden is estimated but what the plate hides itself.
+    // True if hidden surfaces are given: by a deep file, by hidden layers, by a plate that covers the frame.
     bool are_hidden_stated() const { return !deep.empty() && plate.covers; }
     // The plate, where it does not cover the frame; else empty.
     CleanPlate patches() const { return plate.covers ? CleanPlate{} : plate; }

@@ -53,8 +53,7 @@ void add_estimated(const EngineView& input, const FoundSurfaces& found, int x, i
 CocSamples deep_completed(const EngineView& input, View<const unsigned char> connected, const Dim& dim) {
     const CocSamples stated = stated_samples(input.samples);
     const Image<int> distance = distance_to_emptiness(input.samples.colour);
-    std::shared_ptr<const FoundSurfaces> found;
-    if (input.samples.deep_dims_itself) found = surfaces_and_lamps(input, connected, dim);
+    const std::shared_ptr<const FoundSurfaces> found = surfaces_and_lamps(input, connected, dim);
     const double stretch = input.lens.level(0).reach_px(1);
     CocSamples all;
     all.width = stated.width;
@@ -67,7 +66,7 @@ CocSamples deep_completed(const EngineView& input, View<const unsigned char> con
             all.samples.push_back(stated.samples[k]);
             largest = std::max(largest, std::abs(stated.samples[k].coc_px));
         }
-        if (found) add_estimated(input, *found, int(i) % stated.width, int(i) / stated.width, all);
+        add_estimated(input, *found, int(i) % stated.width, int(i) / stated.width, all);
         const bool looks_past = double(distance.pixels()[i]) <= stretch * double(largest) + 1;
         const float open = 1 - input.samples.colour.row(int(i) / stated.width)[int(i) % stated.width].a;
         if (distance.pixels()[i] == 0 || looks_past) {
