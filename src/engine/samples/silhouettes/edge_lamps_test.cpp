@@ -55,6 +55,18 @@ TEST(EdgeLamps, ALampOnAStrandStaysThere) {
     EXPECT_EQ(scene.share_behind(), 0);
 }
 
+// A bulb of two pixels hangs a little in front of a pennant two pixels wide: one pixel shows the bulb's
+// depth.
+TEST(EdgeLamps, ALampCloseBeforeASurfaceIsNotBehindIt) {
+    for (const float before_px : {0.0f, 0.12f}) {
+        Scene scene;
+        for (int y = 0; y < kSize; ++y) scene.coc(kMiddle + 1, y) = kNearPx;
+        scene.colour(kMiddle, kMiddle) = kLit, scene.colour(kMiddle, kMiddle + 1) = 0.7f * kLit;
+        scene.coc(kMiddle, kMiddle) = kNearPx - before_px;
+        EXPECT_EQ(scene.share_behind() == 0, before_px > 0) << before_px;
+    }
+}
+
 // A pixel of a globe's rim has the globe's depth, the ones above and below have the wall's: the globe fills
 // half of each of the three.
 TEST(EdgeLamps, ARimPixelThatStandsOutOfAGlobeIsNoStrand) {
