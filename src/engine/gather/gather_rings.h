@@ -75,8 +75,8 @@ public:
     // group would show what the surface's nearer part hides. So after its first rings it has a seam: the
     // coverage P of the nearer group's last rings, by the kernel of `ring`. Where the first rings took an
     // area T of the lens, a seam takes P * min(1, T / (1 - P)): all of P if the surface fills the lens, none
-    // of another surface. A seam has no light. After the last ring of its group, the area that the seam took
-    // is open again.
+    // of another surface. A seam adds no light. After the last ring of its group, farther turns may fill the
+    // area that the seam took.
     struct Turn {
         int ring;
         bool hidden;

@@ -146,7 +146,7 @@ bool is_shown(float shown, Rgba behind, float covered = 0.4f) {
 TEST(Highlights, ThePictureShowsLightThatLiesBesideASurface) {
     EXPECT_TRUE(is_shown(50, {50, 50, 50, 0})) << "a lamp";
     EXPECT_TRUE(is_shown(50, {50, 50, 50, 0.6f})) << "a lit surface, in the rest of the pixel";
-    EXPECT_FALSE(is_shown(30, {50, 50, 50, 1})) << "one that goes on behind it";
+    EXPECT_FALSE(is_shown(30, {50, 50, 50, 1})) << "a lit surface that continues behind it";
     EXPECT_FALSE(is_shown(1, {50, 50, 50, 0})) << "the hidden part of a lamp";
     EXPECT_FALSE(is_shown(50, {50, 50, 50, 0}, 1)) << "a lamp behind an opaque surface";
 }

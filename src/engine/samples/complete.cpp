@@ -1,9 +1,7 @@
 #include "engine/samples/complete.h"
 
-#include "engine/samples/connectivity.h"
 #include "engine/samples/deep/deep_completed.h"
 #include "engine/samples/flat_picture.h"
-#include "engine/samples/found_surfaces.h"
 #include "engine/samples/sample_source.h"
 
 #include <algorithm>
@@ -12,7 +10,7 @@
 namespace petzval::engine {
 namespace {
 
-// Samples that the input states completely; nothing is estimated.
+// Samples that are all made beforehand.
 class GivenSamples final : public CompletedPicture::Parts {
 public:
     explicit GivenSamples(CocSamples all) : all_(std::move(all)) {
