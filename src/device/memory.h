@@ -11,6 +11,14 @@
 
 namespace petzval::device {
 
+// Data that a device keeps from one plan to the next, such as a copy of a list in its memory.
+struct Kept {
+    Kept() = default;
+    virtual ~Kept() = default;
+    Kept(const Kept&) = delete;
+    Kept& operator=(const Kept&) = delete;
+};
+
 // Things by name under one budget of bytes; the one that was unused for longest goes first. No result depends
 // on whether a thing was kept. Thread-safe; a thing stays alive as long as somebody holds it.
 class Memory {

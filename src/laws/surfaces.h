@@ -4,6 +4,8 @@
 // Radii are signed circles of confusion in pixels, smaller is nearer.
 #pragma once
 
+#include "laws/casters.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -13,8 +15,7 @@ namespace petzval::laws {
 constexpr float kOpaque = 1 - 1e-3f;       // coverage as files hold it: halves round by up to 5e-4
 constexpr float kOpaqueAlone = 0.999f;     // of what is left of a pixel in front of its other samples
 constexpr float kOpaqueElsewhere = 0.99f;  // of a pixel that other frames may use: they resample it
-constexpr float kOpaqueCaster = 0.98f;  // merged into a square that casts one shadow: 2 % of it is not seen
-constexpr float kOpaqueLayer = 0.97f;   // with emptiness, in an interval of radius: later samples lie behind
+constexpr float kOpaqueLayer = 0.97f;  // with emptiness, in an interval of radius: later samples lie behind
 
 // Sharp: a disc of this radius lies within its pixel.
 constexpr float kWithinPixelPx = 0.5f;
@@ -31,8 +32,8 @@ inline bool same_surface(const SurfaceLaw& law, float a_px, float b_px, float ap
 }
 constexpr SurfaceLaw kConnected{0.8f};     // narrower steps of blurred surfaces are not taken apart
 constexpr SurfaceLaw kHiddenSheet{0.25f};  // of hidden samples: one of many leaves may lie beside any other
-constexpr SurfaceLaw kOneSquare{0.2f};     // drawn as one: what it shadows moves by a fraction of a tap
-constexpr float kJumpPx = 1;               // a step from pixel to pixel that a shadow shows
+constexpr SurfaceLaw kOneSquare{kOneSquarePx};
+constexpr float kJumpPx = 1;  // a step from pixel to pixel that a shadow shows
 
 // The same in metres of depth, as ratios: files hold depths to 0.1 %, and a surface seen at a grazing angle
 // changes by 10 % from pixel to pixel.

@@ -4,7 +4,6 @@
 #include "device/vulkan/canvas.h"
 #include "device/vulkan/holdout.h"
 #include "device/vulkan/words.h"
-#include "engine/lights/shadow_plan.h"
 #include "laws/tiles.h"
 
 #include <algorithm>
@@ -18,13 +17,11 @@ namespace {
 
 using engine::LightsPlan;
 using engine::PlannedLight;
-using engine::SeenCaster;
 using engine::ShadowGrid;
 
 constexpr int kTile = laws::kLightsTile;
 constexpr std::size_t kTilePixels = std::size_t(kTile) * kTile;
 constexpr std::uint32_t kGroupsPerTile = kTilePixels / laws::kGroup;
-constexpr int kBlock = laws::kGroupSide;  // cells of a pupil that a group covers
 
 // Lights begin…end - 1 of a plan, with the viewpoints that they have.
 struct Batch {
@@ -37,7 +34,7 @@ struct Batch {
 class LightAdder {
 public:
     LightAdder(Context& context, const LightsPlan& plan, const PackedAtlas& atlas, const LightsRule& rule)
-        : context_(context), plan_(plan), atlas_(atlas), rule_(rule) {}
+        : context_(context), plan_(plan), atlas_(atlas), rule_(rule), shadows_(context, plan, rule.shadows) {}
 
     Batch batch_from(std::size_t begin) const {
         Batch batch{begin, begin, {}, std::vector<std::uint32_t>(plan_.viewpoints.size())};
@@ -63,29 +60,35 @@ public:
         return batch;
     }
 
-    // Lists what the batch adds where, and finds how much of the pupil each light sees.
-    void prepare(const Batch& batch, const Control& control) {
-        std::vector<std::vector<SeenCaster>> casters(batch.views.size());
-        parallel_for(int(casters.size()), control.workers, [&](int i) {
-            casters[std::size_t(i)] =
-                engine::seen_casters(plan_, plan_.viewpoints[batch.views[std::size_t(i)]]);
-        });
+    // Lists what the batch adds where, and finds how much of the pupil each light sees. Shortens the batch if
+    // too much is in the way.
+    void prepare(Batch& batch, const Control& control) {
         words_.clear(), tiles_.clear(), taps_ = 0;
-        for (Piece* piece : {&words_on_device_, &casters_on_device_, &covered_, &visible_, &holdout_})
-            *piece = {};
+        for (Piece* piece : {&words_on_device_, &visible_, &holdout_}) *piece = {};
         kernels_ = {};
+        const std::size_t fitting = shadows_.search(batch.views, control.workers);
+        const auto fits = [&](const PlannedLight& light) {
+            return batch.number_of[light.viewpoint] <= fitting;
+        };
+        const auto first = plan_.lights.begin();
+        batch.end = std::size_t(
+            std::find_if_not(first + std::ptrdiff_t(batch.begin), first + std::ptrdiff_t(batch.end), fits) -
+            first);
         if (control.progress.cancelled()) return;
         list_tiles(batch);
         if (tiles_.empty()) return;
-        list_lights(batch, casters);
+        list_lights(batch);
+        push_.views = shadows_.list(words_);
         Recording recording(context_);
-        visible_ = found_shadows(batch, casters, recording);
+        words_on_device_ = recording.uploaded(std::span<const std::uint32_t>(words_));
+        visible_ = shadows_.visible(recording, words_on_device_);
         const HoldoutWords held(plan_.holdout, plan_.rows.y0, plan_.rows.y1, plan_.rows.x1);
         push_.held_row = held.row, push_.held_width = held.width, push_.held_samples = held.samples;
         holdout_ = recording.uploaded(std::span<const std::uint32_t>(held.words));
         kernels_ = kernels_for(batch, recording);
         push_.records = kernels_.records;
         recording.run();
+        shadows_.finish();
     }
 
     // Adds what was prepared. Returns the taps drawn.
@@ -143,62 +146,15 @@ private:
         words_.insert(words_.end(), order.begin(), order.end());
     }
 
-    void list_lights(const Batch& batch, const std::vector<std::vector<SeenCaster>>& casters) {
+    void list_lights(const Batch& batch) {
         push_.lights = std::uint32_t(words_.size());
         for (std::size_t i = batch.begin; i < batch.end; ++i) {
             const PlannedLight& light = plan_.lights[i];
             const engine::Highlight& h = light.highlight;
             const Rgba colour = h.colour * float(h.size * h.size);
             const std::uint32_t number = batch.number_of[light.viewpoint];
-            add_light(words_, light, colour, h.coc_px, casters[number - 1].empty() ? 0 : number,
+            add_light(words_, light, colour, h.coc_px, shadows_.is_open(number - 1) ? 0 : number,
                       std::uint32_t(plan_.viewpoints[light.viewpoint].first_tap()));
-        }
-    }
-
-    // Records what finds how much each tap of each viewpoint sees.
-    Piece found_shadows(const Batch& batch, const std::vector<std::vector<SeenCaster>>& casters,
-                        Recording& recording) {
-        push_.views = std::uint32_t(words_.size());
-        std::vector<SeenCaster> all;
-        std::vector<std::uint32_t> blocks;
-        std::uint32_t cells = 0, taps = 0, most_taps = 0;
-        for (std::uint32_t v = 0; v < batch.views.size(); ++v) {
-            const ShadowGrid grid(plan_.viewpoints[batch.views[v]]);
-            const auto& own = casters[v];
-            words_.insert(words_.end(),
-                          {std::uint32_t(all.size()), std::uint32_t(own.size()), std::uint32_t(grid.taps),
-                           std::uint32_t(grid.parts), bits_of(grid.scale_px), cells, taps});
-            if (own.empty()) continue;
-            all.insert(all.end(), own.begin(), own.end());
-            const int side = grid.taps * grid.parts;
-            for (int y = 0; y < side; y += kBlock)
-                for (int x = 0; x < side; x += kBlock)
-                    blocks.insert(blocks.end(),
-                                  {v, std::uint32_t(x / kBlock) | std::uint32_t(y / kBlock) << 16});
-            cells += std::uint32_t(side * side), taps += std::uint32_t(grid.taps * grid.taps);
-            most_taps = std::max(most_taps, std::uint32_t(grid.taps * grid.taps));
-        }
-        const auto first_block = std::uint32_t(words_.size());
-        words_.insert(words_.end(), blocks.begin(), blocks.end());
-        words_on_device_ = recording.uploaded(std::span<const std::uint32_t>(words_));
-        Piece visible = context_.heap().allocate(Kind::OnDevice, taps * sizeof(float));
-        if (all.empty()) return visible;
-        covered_ = context_.heap().allocate(Kind::OnDevice, cells * sizeof(float));
-        casters_on_device_ = recording.uploaded(std::span<const SeenCaster>(all));
-        cover(recording, std::uint32_t(blocks.size() / 2), first_block);
-        recording.pass("open pupils", context_.program(Shader::OpenPupil),
-                       {&words_on_device_, &covered_, &visible}, push_.views,
-                       {(most_taps + 255) / 256, std::uint32_t(batch.views.size())});
-        return visible;
-    }
-
-    void cover(Recording& recording, std::uint32_t blocks, std::uint32_t first_block) {
-        constexpr std::uint32_t kMostGroups = 65535;
-        for (std::uint32_t done = 0; done < blocks; done += kMostGroups) {
-            const std::array<std::uint32_t, 2> push{push_.views, first_block + 2 * done};
-            recording.pass("cover pupils", context_.program(Shader::CoverPupil),
-                           {&words_on_device_, &casters_on_device_, &covered_}, push,
-                           {std::min(kMostGroups, blocks - done)});
         }
     }
 
@@ -234,11 +190,12 @@ private:
     const LightsPlan& plan_;
     const PackedAtlas& atlas_;
     const LightsRule rule_;
+    PupilShadows shadows_;
     // Words of the batch.
     std::vector<std::uint32_t> words_;
     std::vector<Rect> tiles_;
     LightsPush push_;
-    Piece words_on_device_, casters_on_device_, covered_, visible_, holdout_;
+    Piece words_on_device_, visible_, holdout_;
     KernelsOnDevice kernels_;
     std::uint64_t taps_ = 0;
 };
@@ -247,10 +204,11 @@ private:
 
 Work add_planned_lights(Context& context, const LightsPlan& plan, const PackedAtlas& atlas, Target out,
                         const Control& control, const LightsRule& rule) {
+    if (plan.lights.empty()) return {};  // and perhaps there are no casters
     LightAdder adder(context, plan, atlas, rule);
     std::uint64_t taps = 0;
     for (std::size_t begin = 0; begin < plan.lights.size() && !control.progress.cancelled();) {
-        const Batch batch = adder.batch_from(begin);
+        Batch batch = adder.batch_from(begin);
         try {
             adder.prepare(batch, control);
         } catch (const Failed& failed) {

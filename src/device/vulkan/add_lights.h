@@ -2,6 +2,7 @@
 #pragma once
 
 #include "device/vulkan/atlas.h"
+#include "device/vulkan/pupil_shadows.h"
 #include "engine/lights/plan.h"
 
 namespace petzval::device::vulkan {
@@ -10,6 +11,7 @@ namespace petzval::device::vulkan {
 struct LightsRule {
     std::size_t most_cells = std::size_t(8) << 20;  // of pupils that are covered
     std::size_t most_views = 1024;
+    ShadowsRule shadows;
     std::size_t most_tiles = 1024;
     std::uint64_t most_multiply_adds = std::uint64_t(1) << 30;
 };

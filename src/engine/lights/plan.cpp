@@ -97,7 +97,8 @@ device::KernelAsk LightsPlanner::ask(const Highlight& h) const {
 
 bool LightsPlanner::next(LightsPlan& plan) {
     plan = {};
-    plan.rows = rows_, plan.first_row = first_row_, plan.casters = &casters_,
+    plan.rows = rows_, plan.first_row = first_row_, plan.casters = &casters_;
+    plan.kept = &kept_;
     plan.holdout = input_.samples.holdout;
     plan.picture = input_.samples.coc_px.rect(), plan.open_edges = input_.window.open_edges;
     plan.stretch = float(std::max(1.0, input_.lens.pixel_aspect));

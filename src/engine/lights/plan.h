@@ -3,6 +3,7 @@
 #pragma once
 
 #include "device/kernels.h"
+#include "device/memory.h"
 #include "engine/lights/highlight_kernels.h"
 #include "engine/lights/highlights.h"
 #include "engine/lights/shadow_casters.h"
@@ -11,6 +12,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace petzval::engine {
@@ -64,6 +66,8 @@ struct LightsPlan {
     std::vector<PlannedLight> lights;  // without tiles: added in this order
     std::vector<Viewpoint> viewpoints;
     const ShadowCasters* casters = nullptr;
+    std::shared_ptr<const device::Kept>* kept =
+        nullptr;                       // of these casters, from plan to plan; null: nothing
     Rect picture;                      // that of the casters…
     OpenEdges open_edges;              // …which continue beyond these edges of it
     std::vector<PupilMask> masks;      // in place of viewpoints and casters
@@ -102,6 +106,7 @@ private:
     std::vector<Viewpoint> viewpoints_;
     std::vector<std::size_t> viewpoint_of_;  // by highlight
     std::size_t next_ = 0;
+    std::shared_ptr<const device::Kept> kept_;
 };
 
 }  // namespace petzval::engine

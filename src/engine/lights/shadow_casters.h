@@ -39,11 +39,16 @@ public:
     // be added at the same time.
     void add(int y0, const CocSamplesView& rows);
 
-    float nearest_coc_px() const { return nearest_; }  // of all
+    int rows() const { return nearest_of_blocks_.height(); }  // of blocks
+    float nearest_coc_px() const { return nearest_; }         // of all
     // Blocks are counted from the picture's corner.
     const Plane& nearest_of_blocks() const { return nearest_of_blocks_; }
     // Casters nearer than end_of_view(n) are the same in view n as in finer views, except for its resolution.
     std::span<const Caster> of_block(int view, int bx, int by) const;  // nearest first
+    // The same for a row of blocks, one block after the other.
+    std::span<const Caster> of_row(int view, int by) const {
+        return views_[std::size_t(view)][std::size_t(by)].casters;
+    }
     // The largest radius up to which a highlight of this radius loses nothing by view n.
     static float end_of_view(int view, float highlight_coc_px);
 

@@ -1,33 +1,39 @@
 #include "engine/lights/shadow_plan.h"
 
-#include "laws/surfaces.h"
+#include "laws/casters.h"
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+
+namespace petzval::laws {
+// NOLINTBEGIN(cppcoreguidelines-macro-usage)
+#define LAW_FUNCTION inline
+#define LAW_CHANGES float&
+#define LAW_LEAST(a, b) std::min(a, b)
+#define LAW_MOST(a, b) std::max(a, b)
+#define LAW_CASTER const engine::Caster&
+#define LAW_VIEWPOINT const engine::Viewpoint&
+#define LAW_EDGES const engine::OpenSides&
+#define LAW_SEEN engine::SeenCaster&
+// NOLINTEND(cppcoreguidelines-macro-usage)
+#include "laws/seen_caster.inc"
+}  // namespace petzval::laws
 
 namespace petzval::engine {
 namespace {
 
-// A bright light finds every crack that is left between the squares of a surface which bends.
-constexpr float kOverlapPx = 0.02f;
 constexpr int kLeastCells = 16;  // along a side of a disc's square
 
 class Collector {
 public:
-    Collector(const LightsPlan& plan, const Viewpoint& view)
-        : plan_(plan),
-          view_(view),
-          // Taps at the rim of the disc reach beyond it by half their width.
-          pupil_end_(plan.stretch +
-                     (0.5f + 0.5f * float(view.size)) / std::max(0.5f, std::abs(view.coc_px))) {
+    Collector(const LightsPlan& plan, const Viewpoint& view) : plan_(plan), view_(view) {
         for (int v = 0; v < ShadowCasters::kViews; ++v)
             ends_[v] =
                 std::min(ShadowCasters::end_of_view(v, view.coc_px), view.coc_px - view.own_surface_px);
     }
 
-    std::vector<SeenCaster> collect() {
-        constexpr std::size_t kUsual = 256;
-        seen_.reserve(kUsual);
+    std::vector<CasterRange> collect() {
         constexpr int kBlock = ShadowCasters::kBlock;
         const int farthest = int(reach_of(casters().nearest_coc_px())) + kBlock;
         const Plane& blocks = casters().nearest_of_blocks();
@@ -44,7 +50,7 @@ public:
                 if (float(dx * dx + dy * dy) > reach_of(c) * reach_of(c)) continue;
                 add_block(bx, by);
             }
-        return std::move(seen_);
+        return std::move(near_);
     }
 
 private:
@@ -52,67 +58,29 @@ private:
     // Largest distance from the light of a caster of this radius.
     float reach_of(float c) const { return (view_.coc_px - c) * plan_.stretch + 1 + float(view_.size); }
 
+    // Each view of the casters gives those that the coarser views before it do not.
     void add_block(int bx, int by) {
-        float done = -1e30f;  // all that is nearer has been seen
+        float done = -1e30f;
         for (int coarse = ShadowCasters::kViews - 1; coarse >= 0; --coarse) {
             const float end = ends_[coarse];
             if (end <= done) continue;
-            for (const Caster& caster : casters().of_block(coarse, bx, by)) {  // nearest first
-                if (caster.coc_px > end) break;
-                if (caster.coc_px > done) add(caster);
-            }
+            const std::span<const Caster> all = casters().of_block(coarse, bx, by);  // nearest first
+            const auto up_to = [&](float coc_px) {
+                return std::partition_point(all.begin(), all.end(),
+                                            [coc_px](const Caster& c) { return c.coc_px <= coc_px; });
+            };
+            const auto first = up_to(done), last = up_to(end);
+            if (first < last)
+                near_.push_back({coarse, by, std::uint32_t(&*first - casters().of_row(coarse, by).data()),
+                                 std::uint32_t(last - first)});
             done = end;
         }
     }
 
-    void add(const Caster& caster) {
-        const float apart = view_.coc_px - caster.coc_px;
-        if (view_.is_shown && lies_beside(caster)) return;
-        if (caster.size > 1 && apart < ShadowCasters::kSameRadiusPx) return;
-        const float per_px = 1 / apart;
-        // A tap sees each pixel of the highlight through another place of the caster's plane, wider apart the
-        // further that plane is from focus.
-        const float blur =
-            float(view_.size - 1) * std::abs(caster.coc_px) / std::max(1.0f, std::abs(view_.coc_px));
-        const float end = pupil_end_ + 0.5f * blur * per_px;
-        const auto misses = [end](const Side& side) { return side.begin >= end || side.end <= -end; };
-        const Side across = seen(caster.x, caster.size, view_.x, apart, caster.right_px, plan_.picture.x0,
-                                 plan_.picture.x1, plan_.open_edges.left, plan_.open_edges.right);
-        if (misses(across)) return;
-        const Side down = seen(caster.y, caster.size, view_.y, apart, caster.down_px, plan_.picture.y0,
-                               plan_.picture.y1, plan_.open_edges.top, plan_.open_edges.bottom);
-        if (misses(down)) return;
-        seen_.push_back({across.middle(), down.middle(), across.end - across.begin, down.end - down.begin,
-                         blur * per_px, caster.coverage});
-    }
-
-    // True if it covers a part of the light's own pixel.
-    bool lies_beside(const Caster& caster) const {
-        return caster.size == 1 && caster.coverage < laws::kOpaqueCaster && caster.x == view_.x &&
-               caster.y == view_.y;
-    }
-    // A square along one axis of the pupil. Each end has its own radius, so that the squares of a sloping
-    // surface meet. One that touches an open edge of the picture continues beyond it.
-    struct Side {
-        float begin, end;
-        float middle() const { return 0.5f * (begin + end); }
-    };
-    Side seen(float at, float size, float from, float apart, float slope, int first, int last,
-              bool opens_before, bool opens_after) const {
-        const float half = 0.5f * (size + kOverlapPx), beyond = 2 * pupil_end_;
-        const float change = std::clamp(half * slope, -0.5f * apart, 0.5f * apart);
-        Side side{(at - half - from) / (apart + change), (at + half - from) / (apart - change)};
-        side.end = std::max(side.begin, side.end);  // a surface seen from its back
-        if (opens_before && at - 0.5f * size < float(first)) side.begin = std::min(side.begin, -beyond);
-        if (opens_after && at + 0.5f * size > float(last) - 1) side.end = std::max(side.end, beyond);
-        return side;
-    }
-
     const LightsPlan& plan_;
     const Viewpoint& view_;
-    const float pupil_end_;
     float ends_[ShadowCasters::kViews];  // of what each view of the casters is looked at for
-    std::vector<SeenCaster> seen_;
+    std::vector<CasterRange> near_;
 };
 
 }  // namespace
@@ -123,9 +91,40 @@ ShadowGrid::ShadowGrid(const Viewpoint& view)
       taps(2 * int(std::floor(std::abs(view.coc_px) + 0.5f)) + (view.size % 2 == 0 ? 2 : 1)),
       parts(std::max(1, kLeastCells / taps)) {}
 
-std::vector<SeenCaster> seen_casters(const LightsPlan& plan, const Viewpoint& view) {
+OpenSides::OpenSides(const LightsPlan& plan) {
+    constexpr float kNever = 1e30f;
+    const Rect& r = plan.picture;
+    const OpenEdges& open = plan.open_edges;
+    left = open.left ? float(r.x0) : -kNever;
+    top = open.top ? float(r.y0) : -kNever;
+    right = open.right ? float(r.x1) - 1 : kNever;
+    bottom = open.bottom ? float(r.y1) - 1 : kNever;
+}
+
+// Taps at the rim of the disc reach beyond it by half their width.
+float pupil_end(const LightsPlan& plan, const Viewpoint& view) {
+    return plan.stretch + (0.5f + 0.5f * float(view.size)) / std::max(0.5f, std::abs(view.coc_px));
+}
+
+std::vector<CasterRange> near_casters(const LightsPlan& plan, const Viewpoint& view) {
     if (plan.casters->nearest_coc_px() >= view.coc_px - view.own_surface_px) return {};
     return Collector(plan, view).collect();
+}
+
+std::vector<SeenCaster> seen_casters(const LightsPlan& plan, const Viewpoint& view) {
+    const std::vector<CasterRange> near = near_casters(plan, view);
+    if (near.empty()) return {};
+    constexpr std::size_t kUsual = 256;
+    std::vector<SeenCaster> seen;
+    seen.reserve(kUsual);
+    const OpenSides edges(plan);
+    const float end = pupil_end(plan, view);
+    SeenCaster found;
+    for (const CasterRange& range : near)
+        for (const Caster& caster :
+             plan.casters->of_row(range.view, range.row).subspan(range.first, range.count))
+            if (laws::law_sees(caster, view, edges, end, found)) seen.push_back(found);
+    return seen;
 }
 
 }  // namespace petzval::engine

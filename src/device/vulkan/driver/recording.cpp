@@ -49,15 +49,19 @@ Recording::~Recording() {
 }
 
 Piece Recording::uploaded(std::span<const std::byte> bytes) {
-    Piece piece = context_.heap().allocate(Kind::OnDevice, bytes.size());
-    if (bytes.empty()) return piece;
+    return uploaded(bytes.size(), [&](std::byte* to) { std::memcpy(to, bytes.data(), bytes.size()); });
+}
+
+Piece Recording::uploaded(std::size_t bytes, FunctionRef<void(std::byte*)> fill) {
+    Piece piece = context_.heap().allocate(Kind::OnDevice, bytes);
+    if (bytes == 0) return piece;
     if (std::byte* const seen = piece.mapped()) {
-        std::memcpy(seen, bytes.data(), bytes.size());
+        fill(seen);
         return piece;
     }
-    const Piece& from = staging_.emplace_back(context_.heap().allocate(Kind::ToDevice, bytes.size()));
-    std::memcpy(from.mapped(), bytes.data(), bytes.size());
-    const VkBufferCopy copy = {from.offset(), piece.offset(), bytes.size()};
+    const Piece& from = staging_.emplace_back(context_.heap().allocate(Kind::ToDevice, bytes));
+    fill(from.mapped());
+    const VkBufferCopy copy = {from.offset(), piece.offset(), bytes};
     vk_.vkCmdCopyBuffer(commands_, from.buffer(), piece.buffer(), 1, &copy);
     return piece;
 }
@@ -98,10 +102,10 @@ void Recording::add_pools() {
     if (!times_passes_) return;
     VkQueryPoolCreateInfo queries = {};
     queries.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
-    queries.queryType = VK_QUERY_TYPE_TIMESTAMP, queries.queryCount = 2 * kPassesOfPools;
+    queries.queryType = VK_QUERY_TYPE_TIMESTAMP, queries.queryCount = kQueriesOfPools;
     check(vk_.vkCreateQueryPool(context_.handle(), &queries, nullptr, &pools.queries), context_.name(),
           "commands");
-    vk_.vkCmdResetQueryPool(commands_, pools.queries, 0, 2 * kPassesOfPools);
+    vk_.vkCmdResetQueryPool(commands_, pools.queries, 0, kQueriesOfPools);
 }
 
 VkDescriptorSet Recording::set_for(const Program& program, std::initializer_list<const Piece*> buffers) {
@@ -147,10 +151,10 @@ void Recording::begin_pass(const char* name, const PassWork& work) {
 void Recording::end_pass() { write_time(2 * passes_.size() - 1); }
 
 void Recording::write_time(std::size_t query) {
-    const VkQueryPool queries = pools_.back().queries;
+    VkQueryPool queries = pools_.back().queries;
     if (queries)
         vk_.vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, queries,
-                                std::uint32_t(query % (2 * kPassesOfPools)));
+                                std::uint32_t(query % kQueriesOfPools));
 }
 
 const std::byte* Recording::downloaded(const Piece& piece, std::size_t bytes) {
@@ -189,7 +193,7 @@ void Recording::note_times() {
     const double period = double(context_.candidate().limits.timestampPeriod) * 1e-9;
     std::array<std::uint64_t, 2> ticks;
     for (std::size_t i = 0; i < passes_.size(); ++i) {
-        const auto first = std::uint32_t(2 * i % (2 * kPassesOfPools));
+        const auto first = std::uint32_t(2 * i % kQueriesOfPools);
         check(vk_.vkGetQueryPoolResults(context_.handle(), pools_[i / kPassesOfPools].queries, first, 2,
                                         sizeof ticks, ticks.data(), sizeof(std::uint64_t),
                                         VK_QUERY_RESULT_64_BIT),

@@ -1,6 +1,8 @@
 // Commands for a device, from the first to the end of the last.
 #pragma once
 
+#include "petzval/workers.h"
+
 #include "device/vulkan/driver/context.h"
 
 #include <algorithm>
@@ -40,6 +42,8 @@ public:
     Piece uploaded(std::span<const T> values) {
         return uploaded(std::as_bytes(values));
     }
+    // The same of bytes that fill(to) writes.
+    Piece uploaded(std::size_t bytes, FunctionRef<void(std::byte*)> fill);
     // buffers, push: as the program declares them.
     template <typename Push>
     void pass(const char* name, const Program& program, std::initializer_list<const Piece*> buffers,
@@ -77,7 +81,7 @@ private:
     void order(VkPipelineStageFlags to, VkAccessFlags access);
     void note_times();
 
-    static constexpr std::uint32_t kPassesOfPools = 64;
+    static constexpr std::uint32_t kPassesOfPools = 64, kQueriesOfPools = 2 * kPassesOfPools;
     Context& context_;
     const Functions& vk_;
     const bool times_passes_;

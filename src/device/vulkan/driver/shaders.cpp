@@ -12,6 +12,9 @@ constexpr std::uint32_t kComposite[] =
 constexpr std::uint32_t kAddSectors[] =
 #include "add_sectors.comp.inc"
     ;
+constexpr std::uint32_t kFindCasters[] =
+#include "find_casters.comp.inc"
+    ;
 constexpr std::uint32_t kCoverPupil[] =
 #include "cover_pupil.comp.inc"
     ;
@@ -125,39 +128,23 @@ std::span<const VkDescriptorType> buffers(std::size_t count) { return std::span(
 ShaderWords words_of(Shader shader) {
     // In the order of Shader.
     static const std::array kWords{
-        ShaderWords{kComposite, buffers(7), 52},
-        ShaderWords{kAddSectors, buffers(4), 4},
-        ShaderWords{kCoverPupil, buffers(3), 8},
-        ShaderWords{kOpenPupil, buffers(3), 4},
-        ShaderWords{kAddLights, buffers(6), 36},
-        ShaderWords{kAddCells, buffers(3), 8},
-        ShaderWords{kGather, buffers(4), 36},
-        ShaderWords{kSpreadColumns, buffers(7), 72},
-        ShaderWords{kSpreadCells, buffers(5), 72},
-        ShaderWords{kBlurCells, buffers(5), 72},
-        ShaderWords{kMixBlurs, buffers(8), 72},
-        ShaderWords{kPlaceTiles, buffers(3), 12},
-        ShaderWords{kGlareLight, buffers(2), 20},
-        ShaderWords{kGlareHalve, buffers(2), 8},
-        ShaderWords{kGlareBlur, buffers(3), 28},
-        ShaderWords{kGlareEnlarge, buffers(2), 12},
-        ShaderWords{kGlareSum, buffers(2), 4},
-        ShaderWords{kGlareAdd, buffers(5), 48},
-        ShaderWords{kStarReduce, buffers(2), 24},
-        ShaderWords{kStarStreak, buffers(3), 24},
-        ShaderWords{kStarEnlarge, buffers(2), 24},
-        ShaderWords{kStarLoad, buffers(2), 52},
-        ShaderWords{kStarTransform, buffers(3), 52},
-        ShaderWords{kStarFilter, buffers(4), 52},
-        ShaderWords{kStarAdd, buffers(2), 52},
-        ShaderWords{kDevelop, buffers(2), 52},
-        ShaderWords{kRealtimeMeasure, kOfMeasure, 60},
-        ShaderWords{kRealtimeSplit, kOfSplit, 60},
-        ShaderWords{kRealtimeReach, kOfReach, 60},
-        ShaderWords{kRealtimeGather, kOfGather, 60},
-        ShaderWords{kRealtimeCombine16, kOfCombine, 60},
-        ShaderWords{kRealtimeCombine32, kOfCombine, 60},
-        ShaderWords{kRealtimeCombine11, kOfCombine, 60},
+        ShaderWords{kComposite, buffers(7), 52},         ShaderWords{kAddSectors, buffers(4), 4},
+        ShaderWords{kFindCasters, buffers(3), 28},       ShaderWords{kCoverPupil, buffers(3), 8},
+        ShaderWords{kOpenPupil, buffers(3), 4},          ShaderWords{kAddLights, buffers(6), 36},
+        ShaderWords{kAddCells, buffers(3), 8},           ShaderWords{kGather, buffers(4), 36},
+        ShaderWords{kSpreadColumns, buffers(7), 72},     ShaderWords{kSpreadCells, buffers(5), 72},
+        ShaderWords{kBlurCells, buffers(5), 72},         ShaderWords{kMixBlurs, buffers(8), 72},
+        ShaderWords{kPlaceTiles, buffers(3), 12},        ShaderWords{kGlareLight, buffers(2), 20},
+        ShaderWords{kGlareHalve, buffers(2), 8},         ShaderWords{kGlareBlur, buffers(3), 28},
+        ShaderWords{kGlareEnlarge, buffers(2), 12},      ShaderWords{kGlareSum, buffers(2), 4},
+        ShaderWords{kGlareAdd, buffers(5), 48},          ShaderWords{kStarReduce, buffers(2), 24},
+        ShaderWords{kStarStreak, buffers(3), 24},        ShaderWords{kStarEnlarge, buffers(2), 24},
+        ShaderWords{kStarLoad, buffers(2), 52},          ShaderWords{kStarTransform, buffers(3), 52},
+        ShaderWords{kStarFilter, buffers(4), 52},        ShaderWords{kStarAdd, buffers(2), 52},
+        ShaderWords{kDevelop, buffers(2), 52},           ShaderWords{kRealtimeMeasure, kOfMeasure, 60},
+        ShaderWords{kRealtimeSplit, kOfSplit, 60},       ShaderWords{kRealtimeReach, kOfReach, 60},
+        ShaderWords{kRealtimeGather, kOfGather, 60},     ShaderWords{kRealtimeCombine16, kOfCombine, 60},
+        ShaderWords{kRealtimeCombine32, kOfCombine, 60}, ShaderWords{kRealtimeCombine11, kOfCombine, 60},
     };
     return kWords[std::size_t(shader)];
 }

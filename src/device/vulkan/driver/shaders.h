@@ -11,6 +11,7 @@ namespace petzval::device::vulkan {
 enum class Shader {
     Composite,
     AddSectors,
+    FindCasters,
     CoverPupil,
     OpenPupil,
     AddLights,

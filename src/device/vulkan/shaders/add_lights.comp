@@ -30,9 +30,9 @@ shared vec4 hit_light[kChunk];
 shared int hit_x[kChunk], hit_y[kChunk], hit_tap[kChunk];
 shared uint hit_corner[kChunk], hit_size[kChunk], hit_weights[kChunk], hit_view[kChunk];
 shared float hit_coc[kChunk];
-shared uint hit_words[kChunk / 32];
 
 #include "kernels.glsl"
+#include "ranks.glsl"
 
 // The nearest tap of the disc's square stands for those outside.
 float seen(uint k, ivec2 pixel) {
@@ -81,8 +81,6 @@ void main() {
     vec4 sum = vec4(0);
     const uint last = words[tile + kTileWords + 4u];
     for (uint first = words[tile + 4u]; first < last; first += kChunk) {
-        if (own < kChunk / 32) hit_words[own] = 0u;
-        barrier();
         uint light = 0u, record = 0u;
         bool hits = first + own < last;
         if (hits) {
@@ -90,16 +88,9 @@ void main() {
             record = at.records + 3u * kernels[words[light + 7u]];
             const ivec2 from = ivec2(int(words[light]), int(words[light + 1u])) + halves(kernels[record]);
             hits = all(lessThan(from, high)) && all(greaterThan(from + halves(kernels[record + 1u]), low));
-            if (hits) atomicOr(hit_words[own / 32u], 1u << (own % 32u));
         }
-        barrier();
-        uint rank = 0u, all_hits = 0u;
-        for (uint w = 0u; w < kChunk / 32; ++w) {
-            const uint word = hit_words[w];
-            if (w < own / 32u) rank += bitCount(word);
-            if (w == own / 32u) rank += bitCount(word & ((1u << (own % 32u)) - 1u));
-            all_hits += bitCount(word);
-        }
+        const uvec2 ranks = ranked(hits);
+        const uint rank = ranks.x, all_hits = ranks.y;
         if (hits) {
             hit_x[rank] = int(words[light]), hit_y[rank] = int(words[light + 1u]);
             hit_light[rank] = vec4(uintBitsToFloat(words[light + 2u]), uintBitsToFloat(words[light + 3u]),

@@ -1,6 +1,7 @@
 // Coverage by nearer occluders of each cell of a viewpoint's pupil: 16 x 16 cells a group. The formulas are
 // device/cpu/lights/pupil_shadow.cpp's.
 #version 450
+#extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 256) in;
 
 layout(std430, binding = 0) readonly buffer Words { uint words[]; };
@@ -14,7 +15,8 @@ const int kChunk = 256;
 
 shared float hit_x[kChunk], hit_y[kChunk], hit_wide[kChunk], hit_tall[kChunk], hit_blur[kChunk],
     hit_coverage[kChunk];
-shared uint hit_words[kChunk / 32];
+
+#include "ranks.glsl"
 
 float integral(float x, float middle, float outer, float inner, float peak, float per_ramp) {
     const float t = x - middle, ramp = outer - inner;
@@ -41,8 +43,6 @@ void main() {
     const uint first = words[view], count = words[view + 1u];
     float sum = 0;
     for (uint done = 0u; done < count; done += kChunk) {
-        if (own < kChunk / 32) hit_words[own] = 0u;
-        barrier();
         float x = 0, y = 0, wide_by = 0, tall_by = 0, blur = 0;
         const uint i = 6u * (first + done + own);
         bool hits = done + own < count;
@@ -52,16 +52,9 @@ void main() {
             const float half_x = 0.5 * (wide_by + blur), half_y = 0.5 * (tall_by + blur);
             hits = x + half_x > float(low.x) && x - half_x < float(low.x + 16) && y + half_y > float(low.y) &&
                    y - half_y < float(low.y + 16);
-            if (hits) atomicOr(hit_words[own / 32u], 1u << (own % 32u));
         }
-        barrier();
-        uint rank = 0u, all_hits = 0u;
-        for (uint w = 0u; w < kChunk / 32; ++w) {
-            const uint word = hit_words[w];
-            if (w < own / 32u) rank += bitCount(word);
-            if (w == own / 32u) rank += bitCount(word & ((1u << (own % 32u)) - 1u));
-            all_hits += bitCount(word);
-        }
+        const uvec2 ranks = ranked(hits);
+        const uint rank = ranks.x, all_hits = ranks.y;
         if (hits) {
             hit_x[rank] = x, hit_y[rank] = y, hit_wide[rank] = wide_by, hit_tall[rank] = tall_by;
             hit_blur[rank] = blur, hit_coverage[rank] = casters[i + 5u];
@@ -70,7 +63,6 @@ void main() {
         for (uint k = 0u; k < all_hits; ++k)
             sum += hit_coverage[k] * share(cell.y, hit_y[k], hit_tall[k], hit_blur[k]) *
                    share(cell.x, hit_x[k], hit_wide[k], hit_blur[k]);
-        barrier();
     }
     if (cell.x < wide && cell.y < wide) covered[words[view + 5u] + uint(cell.y * wide + cell.x)] = sum;
 }

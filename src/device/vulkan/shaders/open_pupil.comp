@@ -12,8 +12,7 @@ const uint kViewWords = 7;  // cover_pupil.comp
 void main() {
     const uint view = at.views + kViewWords * gl_WorkGroupID.y, tap = gl_GlobalInvocationID.x;
     const uint taps = words[view + 2u], parts = words[view + 3u], wide = taps * parts;
-    // A view without occluders has no cells and no separate taps.
-    if (words[view + 1u] == 0u || tap >= taps * taps) return;
+    if (tap >= taps * taps) return;
     const uint first = words[view + 5u];
     const float per_radius = uintBitsToFloat(words[view + 4u]) * float(parts);
     const uvec2 corner = parts * uvec2(tap % taps, tap / taps);
