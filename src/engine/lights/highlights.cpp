@@ -127,7 +127,7 @@ bool HighlightSplit::is_flat(int x, int y) const { return !stated_.empty() && is
 float HighlightSplit::radius_of_light(int x, int y, float coc_px) const {
     if ((!stated_.empty() && !is_flat(x, y)) || dim(x, y, colour_(x, y)) == colour_(x, y)) return coc_px;
     const float coc = radius_of_brightest(colour_, coc_px_, x, y);
-    return laws::same_surface(laws::kConnected, coc, coc_px) ? coc : coc_px;
+    return coc < coc_px && laws::same_surface(laws::kConnected, coc, coc_px) ? coc : coc_px;
 }
 
 PartOfPixel HighlightSplit::part_of_lamp(int x, int y) const {

@@ -71,7 +71,8 @@ public:
     // `light` without that of a lamp: what is left of a lamp is as bright as its surroundings.
     Rgba dim(int x, int y, Rgba light) const;
     // The radius of a lamp's light in pixel (x, y): that of the brightest pixel around, unless that is
-    // another surface, which the separation of silhouettes handles. Samples of a deep picture know it.
+    // another surface, which the separation of silhouettes handles, or lies behind coc_px, where the pixel's
+    // own surface would shadow the light. Samples of a deep picture know it.
     float radius_of_light(int x, int y, float coc_px) const;
     // True if (x, y), in a picture of stated samples, is a pixel as of a flat picture.
     bool is_flat(int x, int y) const;

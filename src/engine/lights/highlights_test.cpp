@@ -77,6 +77,20 @@ TEST(Highlights, TheRimOfALampStandsWhereTheLampDoes) {
     for (const Highlight& h : lights) EXPECT_EQ(h.coc_px, kLampPx) << h.x << ", " << h.y;
 }
 
+// The lit edge of a table that leans away: behind its own pixel, the light would lie in the table's shadow.
+TEST(Highlights, LightIsNotMovedBehindItsOwnSurface) {
+    constexpr float kNearPx = -0.4f, kBehindPx = -0.2f;
+    Picture colour(kWidth, kHeight, Rgba{0.01f, 0.01f, 0.01f, 1});
+    Plane coc_px(kWidth, kHeight, kNearPx);
+    for (int x = 40; x < 60; ++x) {
+        colour(x, 30) = {30, 30, 30, 1}, colour(x, 31) = {20, 20, 20, 1};
+        coc_px(x, 30) = kBehindPx;
+    }
+    const HighlightSplit split(view_of(colour, coc_px), {});
+    EXPECT_EQ(split.radius_of_light(50, 31, kNearPx), kNearPx);
+    EXPECT_EQ(split.radius_of_light(50, 30, kBehindPx), kBehindPx);
+}
+
 // A surface that gets brighter from pixel to pixel is not a lamp: its light lies in the middle of its pixels.
 TEST(Highlights, OnlyLampsFillAPartOfTheirPixel) {
     Picture colour(kWidth, kHeight, Rgba{0.1f, 0.1f, 0.1f, 1});

@@ -15,7 +15,7 @@ constexpr float kLeastFar = 0.1f;  // a farther surface that covers less of a pi
 float least_variance(Rgba c, ModelErrors errors) {
     const float white = std::min(errors.white, kMostLight);
     const float squared = light2(c) + white * white;
-    return kTiny + errors.times * errors.times * completion_model.model_error2 * squared;
+    return kTiny + errors.unmixed2 + errors.times * errors.times * completion_model.model_error2 * squared;
 }
 
 Explained expected(Rgba c, const Guess& near, const Guess& far, float by_shape, ModelErrors errors,
@@ -42,11 +42,15 @@ Explained expected(Rgba c, const Guess& near, const Guess& far, float by_shape, 
     return {share / total, light_only(far.colour + (1 / total) * step)};
 }
 
-float unexplained(Rgba c, Rgba near, Rgba far) {
-    constexpr float kNone = 0.1f, kAll = 0.5f;  // of the squared light
+float unmixed2(Rgba c, Rgba near, Rgba far) {
     const Rgba across = near - far;
     const float along = std::clamp(dot(c - far, across) / std::max(kTiny, dot(across, across)), 0.0f, 1.0f);
-    const float apart = distance2(c, far + along * across) / std::max(kTiny, light2(c));
+    return distance2(c, far + along * across);
+}
+
+float unexplained(Rgba c, Rgba near, Rgba far) {
+    constexpr float kNone = 0.1f, kAll = 0.5f;  // of the squared light
+    const float apart = unmixed2(c, near, far) / std::max(kTiny, light2(c));
     return std::clamp((apart - kNone) / (kAll - kNone), 0.0f, 1.0f);
 }
 

@@ -62,7 +62,8 @@ struct Explained {
 // plain edge. In dark pixels they are relative to white, so that they do not depend on the exposure.
 struct ModelErrors {
     float times = 1;
-    float white = 0;  // scene-linear luminance
+    float white = 0;     // scene-linear luminance
+    float unmixed2 = 0;  // squared light that no mixture of the two gives, see unmixed2()
 };
 
 // Variance of a colour that counts as exact.
@@ -73,6 +74,9 @@ float least_variance(Rgba c, ModelErrors errors);
 // surface's share of light that neither variance explains; 0: the nearer one gets it.
 Explained expected(Rgba c, const Guess& near, const Guess& far, float by_shape, ModelErrors errors,
                    float far_gains = 0);
+
+// Squared distance of colour c from all mixtures of the two.
+float unmixed2(Rgba c, Rgba near, Rgba far);
 
 // 0…1: the share of colour c that no mixture of the two explains.
 float unexplained(Rgba c, Rgba near, Rgba far);

@@ -92,13 +92,26 @@ Rgba composited(std::span<const Hidden> hidden) {
     return sum;
 }
 
+// 0…1: how well another shade of the nearer surface explains light c, in front of this background.
+float is_shade(Rgba c, float near_share, Rgba near, Rgba behind) {
+    constexpr float kOther = 0.1f;  // of the squared light: another colour
+    Rgba own = light_only(c - (1 - near_share) * behind);
+    own.a = near.a = 0;
+    return std::max(0.0f, 1 - unmixed2(own, kMostLight * near, {}) / (kOther * light2(own) + 1e-16f));
+}
+
 // The two surfaces in a pixel of colour c. Clean pixels of the nearer one lie at least two pixels away, so
-// its colour here may be another shade; but it is no less certain than that of the farther one.
+// its colour here may be another shade; but it is no less certain than that of the farther one. A shade that
+// no mixture of the two gives, such as the lit edge of a rail, says nothing about their shares, so that the
+// silhouette's shape decides.
 Explained explained_before(const Mixture& m, const LitPicture& picture, Rgba c) {
     const float shade = completion_model.near_shade * luminance(m.near_clean);
     const Guess near{m.near_clean, m.near_variance + std::min(shade * shade, m.far_variance)};
     const Guess far{comparable(m.far_colour), m.far_variance};
-    Explained e = expected(comparable(c), near, far, m.share_by_shape, m.errors(picture));
+    ModelErrors errors = m.errors(picture);
+    errors.unmixed2 = is_shade(comparable(c), m.share_by_shape, near.colour, far.colour) *
+                      std::max(0.0f, unmixed2(comparable(c), near.colour, far.colour) - 3 * far.variance);
+    Explained e = expected(comparable(c), near, far, m.share_by_shape, errors);
     e.far_colour = limited(e.far_colour, m.far_most, m.far_colour);
     e.far_colour.a = m.far_colour.a;
     e.near_share = least_share_before(c, e.near_share, e.far_colour);

@@ -1,6 +1,8 @@
 #include "base/parallel.h"
 #include "engine/samples/hidden.h"
 
+#include <array>
+
 #include <gtest/gtest.h>
 
 namespace petzval::engine {
@@ -115,6 +117,30 @@ TEST(Unmix, StripesBehindAnEdgeLeaveNoMarksOnIt) {
             most = std::max(most, std::abs(m.near_colour.g - m.near_share * kRoof));
         });
     EXPECT_LT(most, 0.04f);  // light that the roof does not have
+}
+
+// A rail in focus with a lit edge, before a floor far behind. No mixture of its clean pixels and of the floor
+// is as bright as the edge.
+TEST(Unmix, AHighlightAlongAnEdgeStaysOnIt) {
+    constexpr int kSize = 32, kEdge = 14;
+    constexpr float kFarPx = 6;
+    const std::array<Rgba, 3> rail{
+        {{0.44f, 0.31f, 0.21f, 1}, {0.17f, 0.12f, 0.08f, 1}, {0.01f, 0.01f, 0.01f, 1}}};
+    Picture colour(kSize, kSize, Rgba{0.09f, 0.06f, 0.05f, 1});
+    Plane coc(kSize, kSize, kFarPx);
+    for (int x = 0; x < kSize; ++x) {
+        colour(x, kEdge - 1) = {0.32f, 0.23f, 0.16f, 1};
+        for (int y = 0; y < int(rail.size()); ++y)
+            colour(x, kEdge + y) = rail[std::size_t(y)], coc(x, kEdge + y) = -0.4f;
+    }
+    const LitPicture picture{colour, {{}, 0, 1}};
+    const Image<unsigned char> connected = connections(coc, one_thread());
+    Mixtures mixtures = unmix_silhouettes(picture, coc, connected, one_thread());
+    HiddenLayers hidden = fill_hidden(picture, coc, connected, mixtures, -0.4f, kFarPx, {}, one_thread());
+    unmix_nearer(mixtures, picture, hidden, one_thread());
+    const Mixture* const edge = mixtures.at(kSize / 2, kEdge);
+    ASSERT_NE(edge, nullptr);
+    EXPECT_GT(edge->near_share, 0.8f);
 }
 
 }  // namespace
