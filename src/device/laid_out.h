@@ -18,10 +18,14 @@ namespace petzval::device {
 // The smallest part of a kernel's weights that holds all its light.
 inline Rect lit_part(View<const Rgba> weights) {
     Rect lit{weights.width(), weights.height(), 0, 0};
-    for (int y = 0; y < weights.height(); ++y)
-        for (int x = 0; x < weights.width(); ++x)
-            if (!(weights(x, y) == Rgba{}))
-                lit = {std::min(lit.x0, x), std::min(lit.y0, y), std::max(lit.x1, x + 1), y + 1};
+    for (int y = 0; y < weights.height(); ++y) {
+        const Rgba* const row = weights.row(y);
+        int begin = 0, end = weights.width();
+        while (begin < end && row[begin] == Rgba{}) ++begin;
+        if (begin == end) continue;
+        while (row[end - 1] == Rgba{}) --end;
+        lit = {std::min(lit.x0, begin), std::min(lit.y0, y), std::max(lit.x1, end), y + 1};
+    }
     return lit.empty() ? Rect{} : lit;
 }
 

@@ -24,6 +24,7 @@ constexpr std::size_t kTilePixels = std::size_t(ScatterPlan::kTile) * ScatterPla
 constexpr std::size_t kPartialBytes = kTilePixels * (sizeof(Rgba) + sizeof(float));  // of a tile's sector
 constexpr std::uint32_t kGroupsPerTile = kTilePixels / laws::kGroup;
 
+static_assert(sizeof(Arrival) == 2 * sizeof(std::uint32_t), "as composite.comp has it");
 static_assert(Source::kSkirtBits == 2, "as composite.comp has it");
 
 // Offsets of a batch's parts in the words of the plan (composite.comp's Push).
@@ -38,6 +39,11 @@ static_assert(sizeof(Push) == 48);
 // Tiles begin…end - 1 of a plan.
 struct Batch {
     std::size_t begin = 0, end = 0, sectors = 0;
+};
+
+struct SourcesOnDevice {
+    Piece piece;
+    std::vector<std::uint32_t> bases;  // per level: offset to subtract from the number of a source
 };
 
 class Compositor {
@@ -86,8 +92,8 @@ private:
     std::uint64_t draw(const Batch& batch, Target out) {
         Recording recording(context_);
         Push push;
-        const Piece words = recording.uploaded(std::span<const std::uint32_t>(words_of(batch, push)));
-        const Piece sources = recording.uploaded(std::span<const Source>(sources_));
+        const SourcesOnDevice sources = uploaded_sources(batch, recording);
+        const Piece words = uploaded_lists(batch, sources.bases, push, recording);
         const KernelsOnDevice kernels = kernels_for(batch, recording);
         const HoldoutWords held = holdout_for(batch);
         push.held_row = held.row, push.held_width = held.width, push.held_samples = held.samples;
@@ -101,10 +107,11 @@ private:
         int most_sectors = 1;
         for (std::size_t t = batch.begin; t < batch.end; ++t)
             most_sectors = std::max(most_sectors, plan_.tiles[t].sectors);
-        recording.pass("composite", context_.program(Shader::Composite, plan_.holdout.empty() ? 0 : 1),
-                       {&words, &sources, &kernels.words, &kernels.weights, &holdout, &light, &taken}, push,
-                       {std::uint32_t(tiles) * kGroupsPerTile, std::uint32_t(most_sectors)},
-                       {words.size() + sources.size() + light.size() + taken.size(), 4 * taps_of_batch_});
+        recording.pass(
+            "composite", context_.program(Shader::Composite, plan_.holdout.empty() ? 0 : 1),
+            {&words, &sources.piece, &kernels.words, &kernels.weights, &holdout, &light, &taken}, push,
+            {std::uint32_t(tiles) * kGroupsPerTile, std::uint32_t(most_sectors)},
+            {words.size() + sources.piece.size() + light.size() + taken.size(), 4 * taps_of_batch_});
         recording.pass("add sectors", context_.program(Shader::AddSectors), {&words, &light, &taken, &result},
                        push.tiles, {std::uint32_t(tiles) * kGroupsPerTile},
                        {light.size() + taken.size() + result.size(), 0});
@@ -132,36 +139,42 @@ private:
         return {first(begin), first(end)};
     }
 
-    // The batch's part of the plan's lists, each with the element that closes it; its sources.
-    std::vector<std::uint32_t> words_of(const Batch& batch, Push& push) {
+    // Uploads the batch's part of the plan's lists, each with the element that closes it. bases: as
+    // SourcesOnDevice has them.
+    Piece uploaded_lists(const Batch& batch, const std::vector<std::uint32_t>& bases, Push& push,
+                         Recording& recording) const {
         std::vector<std::uint32_t> words;
         const std::uint32_t first_layer = plan_.tiles[batch.begin].first_layer,
                             last_layer = plan_.tiles[batch.end].first_layer;
-        const std::uint32_t first_run = plan_.layers[first_layer].first_run,
-                            last_run = plan_.layers[last_layer].first_run;
+        const auto [first_run, last_run] = runs_of(batch);
         const auto [first_arrival, last_arrival] = arrivals_of(batch.begin, batch.end);
+        const std::size_t count = last_arrival - first_arrival;
         push.first_layer = first_layer, push.first_run = first_run;
         push.first_arrival = std::uint32_t(first_arrival);
-        const auto here = [&] { return std::uint32_t(words.size()); };
         add_tiles(batch, words);
-        push.layers = here();
+        push.layers = std::uint32_t(words.size());
         for (std::uint32_t l = first_layer; l <= last_layer; ++l) add_layer(l, l < last_layer, words);
-        const auto bases = take_sources(first_run, last_run);
-        push.runs = here();
+        push.runs = std::uint32_t(words.size());
         for (std::uint32_t r = first_run; r <= last_run; ++r) {
             const LevelRun& run = plan_.runs[r];
             const std::uint32_t base = r < last_run ? bases[std::size_t(run.level)] : 0;
             words.insert(words.end(), {run.first_arrival, std::uint32_t(run.level), base});
         }
-        push.arrivals = here();
-        for (std::size_t i = first_arrival; i < last_arrival; ++i)
-            words.insert(words.end(), {plan_.arrivals[i].source, plan_.arrivals[i].kernel});
+        push.arrivals = std::uint32_t(words.size());
+        std::vector parts{std::as_bytes(std::span(words)),
+                          std::as_bytes(std::span(plan_.arrivals).subspan(first_arrival, count))};
         if (!plan_.shares.empty()) {
-            push.shares = here();
-            for (std::size_t i = first_arrival; i < last_arrival; ++i)
-                words.push_back(bits_of(plan_.shares[i]));
+            push.shares = push.arrivals + std::uint32_t(2 * count);
+            parts.push_back(std::as_bytes(std::span(plan_.shares).subspan(first_arrival, count)));
         }
-        return words;
+        return recording.uploaded(parts);
+    }
+    // The first run of a batch, and the first of the next batch.
+    std::pair<std::uint32_t, std::uint32_t> runs_of(const Batch& batch) const {
+        const auto first = [&](std::size_t tile) {
+            return plan_.layers[plan_.tiles[tile].first_layer].first_run;
+        };
+        return {first(batch.begin), first(batch.end)};
     }
     void add_tiles(const Batch& batch, std::vector<std::uint32_t>& words) const {
         std::size_t partial = 0;
@@ -191,30 +204,32 @@ private:
         words.insert(words.end(), {layer.first_run, layer.first_empty_run, bits_of(low), bits_of(high),
                                    std::uint32_t(layer.layer)});
     }
-    // Copies each level's sources from the first to the last that arrives. Returns per level the offset to
-    // subtract from a source's number.
-    std::vector<std::uint32_t> take_sources(std::uint32_t first_run, std::uint32_t last_run) {
+    // Uploads each level's sources from the first to the last that arrives.
+    SourcesOnDevice uploaded_sources(const Batch& batch, Recording& recording) const {
         struct Span {
             std::uint32_t begin = std::numeric_limits<std::uint32_t>::max(), end = 0;
         };
         std::vector<Span> spans(plan_.levels.size());
+        const auto [first_run, last_run] = runs_of(batch);
         for (std::uint32_t r = first_run; r < last_run; ++r) {
+            // Sources ascend within a run.
+            const std::uint32_t first = plan_.arrivals[plan_.runs[r].first_arrival].source,
+                                last = plan_.arrivals[plan_.runs[r + 1].first_arrival - 1].source;
             Span& span = spans[std::size_t(plan_.runs[r].level)];
-            for (std::size_t i = plan_.runs[r].first_arrival; i < plan_.runs[r + 1].first_arrival; ++i) {
-                const std::uint32_t source = plan_.arrivals[i].source;
-                span = {std::min(span.begin, source), std::max(span.end, source + 1)};
-            }
+            span = {std::min(span.begin, first), std::max(span.end, last + 1)};
         }
-        sources_.clear();
-        std::vector<std::uint32_t> bases;
+        SourcesOnDevice made;
+        std::vector<std::span<const std::byte>> parts;
+        std::uint32_t before = 0;
         for (std::size_t l = 0; l < spans.size(); ++l) {
-            const Span& span = spans[l];
-            bases.push_back(span.begin - std::uint32_t(sources_.size()));
-            if (span.begin >= span.end) continue;
-            const Source* const from = plan_.levels[l].sources.data();
-            sources_.insert(sources_.end(), from + span.begin, from + span.end);
+            const auto [begin, end] = spans[l];
+            made.bases.push_back(begin - before);
+            if (begin >= end) continue;
+            parts.push_back(std::as_bytes(std::span(plan_.levels[l].sources).subspan(begin, end - begin)));
+            before += end - begin;
         }
-        return bases;
+        made.piece = recording.uploaded(parts);
+        return made;
     }
 
     KernelsOnDevice kernels_for(const Batch& batch, Recording& recording) {
@@ -245,7 +260,6 @@ private:
     const ScatterPlan& plan_;
     const PackedAtlas& atlas_;
     const BatchRule rule_;
-    std::vector<Source> sources_;  // of the batch
     std::uint64_t taps_of_batch_ = 0;
 };
 

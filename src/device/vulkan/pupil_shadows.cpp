@@ -169,12 +169,9 @@ std::shared_ptr<const CastersOnDevice> PupilShadows::casters(Recording& recordin
     if (sends_all_ && plan_.kept)
         if (auto kept = std::dynamic_pointer_cast<const CastersOnDevice>(*plan_.kept)) return kept;
     auto made = std::make_shared<CastersOnDevice>();
-    made->casters = recording.uploaded(caster_bytes(), [&](std::byte* to) {
-        for_rows([&](std::span<const Caster> row) {
-            const auto bytes = std::as_bytes(row);
-            to = std::copy(bytes.begin(), bytes.end(), to);
-        });
-    });
+    std::vector<std::span<const std::byte>> rows;
+    for_rows([&](std::span<const Caster> row) { rows.push_back(std::as_bytes(row)); });
+    made->casters = recording.uploaded(rows);
     return made;
 }
 

@@ -88,7 +88,7 @@ struct SourceArray {
 struct Arrival {
     std::uint32_t source, kernel;
 };
-// Arrivals of one level within a layer, in the order in which they are added.
+// Arrivals of one level within a layer, in the order in which they are added: their sources ascend.
 struct LevelRun {
     std::uint32_t first_arrival;
     int level;

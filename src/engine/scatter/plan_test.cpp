@@ -244,6 +244,15 @@ TEST(ScatterPlan, RowsOfSourcesAscendAndKnowTheirRow) {
     }
 }
 
+// Devices find the part of a level's sources that a run needs by its first and last arrival.
+TEST(ScatterPlan, SourcesOfARunAscend) {
+    Planned planned(180, 130, doublet());
+    const ScatterPlan& plan = planned.with_radii(two_surfaces).plan();
+    for (std::size_t r = 0; r + 1 < plan.runs.size(); ++r)
+        for (std::size_t a = plan.runs[r].first_arrival + 1; a < plan.runs[r + 1].first_arrival; ++a)
+            EXPECT_GE(plan.arrivals[a].source, plan.arrivals[a - 1].source);
+}
+
 TEST(ScatterPlan, OneSurfaceHasOneBudgetAndTwoBehindEachOtherOneForEachSector) {
     Planned one(128, 128), two(128, 128), draft(128, 128, {}, Quality::Draft);
     for (const Tile& tile : one.with_radii([](int, int) { return 9.0f; }).plan().tiles)

@@ -48,11 +48,14 @@ Recording::~Recording() {
     if (pool_) vk_.vkDestroyCommandPool(context_.handle(), pool_, nullptr);
 }
 
-Piece Recording::uploaded(std::span<const std::byte> bytes) {
-    return uploaded(bytes.size(), [&](std::byte* to) { std::memcpy(to, bytes.data(), bytes.size()); });
-}
+Piece Recording::uploaded(std::span<const std::byte> bytes) { return uploaded(std::vector{bytes}); }
 
-Piece Recording::uploaded(std::size_t bytes, FunctionRef<void(std::byte*)> fill) {
+Piece Recording::uploaded(const std::vector<std::span<const std::byte>>& parts) {
+    std::size_t bytes = 0;
+    for (const auto& part : parts) bytes += part.size();
+    const auto fill = [&parts](std::byte* to) {
+        for (const auto& part : parts) to = std::copy(part.begin(), part.end(), to);
+    };
     Piece piece = context_.heap().allocate(Kind::OnDevice, bytes);
     if (bytes == 0) return piece;
     if (std::byte* const seen = piece.mapped()) {

@@ -1,8 +1,6 @@
 // Commands for a device, from the first to the end of the last.
 #pragma once
 
-#include "petzval/workers.h"
-
 #include "device/vulkan/driver/context.h"
 
 #include <algorithm>
@@ -42,8 +40,8 @@ public:
     Piece uploaded(std::span<const T> values) {
         return uploaded(std::as_bytes(values));
     }
-    // The same of bytes that fill(to) writes.
-    Piece uploaded(std::size_t bytes, FunctionRef<void(std::byte*)> fill);
+    // The same of several parts, one after the other.
+    Piece uploaded(const std::vector<std::span<const std::byte>>& parts);
     // buffers, push: as the program declares them.
     template <typename Push>
     void pass(const char* name, const Program& program, std::initializer_list<const Piece*> buffers,
