@@ -43,6 +43,9 @@ private:
         float near_by, weight;
         bool is_gap;
     };
+    // near_by of a pixel beside. The pixel itself counts no more: light of the strand that neither its colour
+    // nor the background explains, such as that of a lit side, would be its own witness.
+    static constexpr float kBeside = 0.5f;
     static constexpr int kMostReachPx = 5;  // of UnmixRule::clean_within_px
     static constexpr int kWiderPx = 4;      // where no clean pixel of the surface behind is within reach
     static constexpr std::size_t kWindowPx = 2 * kMostReachPx + 1, kMostShown = kWindowPx * kWindowPx;
@@ -109,6 +112,7 @@ private:
             const Mixture* const at = mixture_before(u, v, threshold);
             if (at) mixed.add(c, near_by * dimmer(c));
             if (!at) add_clean(c, near_by);
+            if (at) near_by = std::min(near_by, kBeside);
             shown[count++] = {c, at, near_by, near_by * dimmer(c), at && is_gap(u, v, threshold)};
         });
         if (clean.empty())

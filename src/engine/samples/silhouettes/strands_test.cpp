@@ -229,5 +229,38 @@ TEST(Strands, LeaveTheWallItsColourInANarrowGap) {
     EXPECT_NEAR(gap->near_share, 0.7f, 0.1f);
 }
 
+// Wires before a dark wall, each lit from the left. A pixel whose middle lies beside the wire shows little of
+// it but the lit side, brighter than wire and wall.
+TEST(Strands, KeepTheirLitSide) {
+    constexpr float kNight = 0.01f, kLit = 0.8f, kDark = 0.02f, kLitPx = 0.3f, kWidthPx = 1.5f;
+    Picture colour(kSize, kSize);
+    Plane coc(kSize, kSize, 0.2f);
+    for (int y = 0; y < kSize; ++y)
+        for (int x = 0; x < kSize; ++x) {
+            float light = kNight;
+            for (int k = 0; k < 4; ++k) {
+                const float left = 4 + 14 * float(k) + 0.29f * float(y), middle = float(x) + 0.5f;
+                const auto covers = [&](float from, float to) {
+                    return std::max(0.0f, std::min(to, float(x + 1)) - std::max(from, float(x)));
+                };
+                light += covers(left, left + kLitPx) * (kLit - kNight) +
+                         covers(left + kLitPx, left + kWidthPx) * (kDark - kNight);
+                if (middle >= left && middle < left + kWidthPx) coc(x, y) = -7;
+            }
+            colour(x, y) = {light, light, light, 1};
+        }
+    const Mixtures mixtures =
+        unmix_silhouettes({colour, kNoLamps}, coc, connections(coc, one_thread()), one_thread());
+    float left_behind = 0;
+    int pixels = 0;
+    for (int y = 8; y < kSize - 8; ++y)
+        mixtures.for_each_in_row(y, [&](int x, const Mixture& m) {
+            if (!m.thin || !m.shows_far || x < 8 || x >= kSize - 8) return;
+            left_behind += (1 - m.near_share) * std::abs(m.far_colour.g - kNight), ++pixels;
+        });
+    EXPECT_GT(pixels, 200);
+    EXPECT_LT(left_behind / float(pixels), 0.008f);
+}
+
 }  // namespace
 }  // namespace petzval::engine
