@@ -1,24 +1,11 @@
 #include "engine/lights/shadow_plan.h"
 
-#include "laws/casters.h"
+#include "engine/lights/casters_together.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
-
-namespace petzval::laws {
-// NOLINTBEGIN(cppcoreguidelines-macro-usage)
-#define LAW_FUNCTION inline
-#define LAW_CHANGES float&
-#define LAW_LEAST(a, b) std::min(a, b)
-#define LAW_MOST(a, b) std::max(a, b)
-#define LAW_CASTER const engine::Caster&
-#define LAW_VIEWPOINT const engine::Viewpoint&
-#define LAW_EDGES const engine::OpenSides&
-#define LAW_SEEN engine::SeenCaster&
-// NOLINTEND(cppcoreguidelines-macro-usage)
-#include "laws/seen_caster.inc"
-}  // namespace petzval::laws
 
 namespace petzval::engine {
 namespace {
@@ -48,7 +35,7 @@ public:
                 const int dx = std::max({bx * kBlock - x, x - (bx + 1) * kBlock + 1, 0});
                 const int dy = std::max({by * kBlock - y, y - (by + 1) * kBlock + 1, 0});
                 if (float(dx * dx + dy * dy) > reach_of(c) * reach_of(c)) continue;
-                add_block(bx, by);
+                add_block(bx, by, c);
             }
         return std::move(near_);
     }
@@ -58,12 +45,13 @@ private:
     // Largest distance from the light of a caster of this radius.
     float reach_of(float c) const { return (view_.coc_px - c) * plan_.stretch + 1 + float(view_.size); }
 
-    // Each view of the casters gives those that the coarser views before it do not.
-    void add_block(int bx, int by) {
+    // Each view of the casters gives those that the coarser views before it do not. No view has a nearer one
+    // than `nearest_coc_px`.
+    void add_block(int bx, int by, float nearest_coc_px) {
         float done = -1e30f;
         for (int coarse = ShadowCasters::kViews - 1; coarse >= 0; --coarse) {
             const float end = ends_[coarse];
-            if (end <= done) continue;
+            if (end <= done || end < nearest_coc_px) continue;
             const std::span<const Caster> all = casters().of_block(coarse, bx, by);  // nearest first
             const auto up_to = [&](float coc_px) {
                 return std::partition_point(all.begin(), all.end(),
@@ -114,16 +102,24 @@ std::vector<CasterRange> near_casters(const LightsPlan& plan, const Viewpoint& v
 std::vector<SeenCaster> seen_casters(const LightsPlan& plan, const Viewpoint& view) {
     const std::vector<CasterRange> near = near_casters(plan, view);
     if (near.empty()) return {};
-    constexpr std::size_t kUsual = 256;
     std::vector<SeenCaster> seen;
-    seen.reserve(kUsual);
     const OpenSides edges(plan);
     const float end = pupil_end(plan, view);
-    SeenCaster found;
-    for (const CasterRange& range : near)
-        for (const Caster& caster :
-             plan.casters->of_row(range.view, range.row).subspan(range.first, range.count))
-            if (laws::law_sees(caster, view, edges, end, found)) seen.push_back(found);
+    CastersTogether together;
+    std::array<SeenCaster, CastersTogether::kMost> found;
+    const auto test = [&] {
+        const std::size_t n = together.seen_from(view, edges, end, found.data());
+        seen.insert(seen.end(), found.begin(), found.begin() + std::ptrdiff_t(n));
+        together.clear();
+    };
+    for (const CasterRange& range : near) {
+        auto left = plan.casters->of_row(range.view, range.row).subspan(range.first, range.count);
+        while (!left.empty()) {
+            left = left.subspan(together.add(left));
+            if (together.size() == CastersTogether::kMost) test();
+        }
+    }
+    test();
     return seen;
 }
 

@@ -24,8 +24,16 @@ const uint kViewWords = 7, kSearchWords = 9, kRangeWords = 2;
 struct Viewpoint { float x, y, coc_px; int size; bool is_shown; };
 struct OpenSides { float left, top, right, bottom; };
 
+#define LAW_NUMBER float
+#define LAW_TRUTH bool
 #define LAW_FUNCTION
 #define LAW_CHANGES inout float
+#define LAW_OF(x) (x)
+#define LAW_LESS(a, b) ((a) < (b))
+#define LAW_SAME(a, b) ((a) == (b))
+#define LAW_BOTH(a, b) ((a) && (b))
+#define LAW_NOT(a) (!(a))
+#define LAW_WHERE(c, a, b) ((c) ? (a) : (b))
 #define LAW_LEAST(a, b) min(a, b)
 #define LAW_MOST(a, b) max(a, b)
 #define LAW_CASTER Caster
