@@ -170,10 +170,25 @@ HWY_INLINE hn::Vec<D> Interpolated(D d, const float* in, std::size_t stride, con
 
 void AddShares(const Rgba* HWY_RESTRICT weights, const Rgba& light, const float* HWY_RESTRICT shares,
                Rgba* HWY_RESTRICT sums, std::size_t n) {
+    std::size_t begin = 0;
+    // Whole registers of pixels; each pixel's share is repeated for its channels.
+    const Floats d;
+    const std::size_t pixels = hn::Lanes(d) / 4;
+    if (pixels > 1) {
+        const hn::RebindToSigned<Floats> whole;
+        const auto pixel = hn::IndicesFromVec(d, hn::ShiftRight<2>(hn::Iota(whole, 0)));
+        const auto own = Repeated(d, light, 0);
+        for (; begin + 4 <= n; begin += pixels) {
+            float* const out = &sums[begin].r;
+            const auto sent = hn::Mul(hn::LoadU(d, &weights[begin].r), own);
+            const auto share = hn::TableLookupLanes(hn::LoadDup128(d, shares + begin), pixel);
+            hn::StoreU(hn::MulAdd(sent, share, hn::LoadU(d, out)), d, out);
+        }
+    }
     const OnePixel one;
     for (std::size_t k = 0; k < 4; k += hn::Lanes(one)) {
         const auto own = hn::LoadU(one, &light.r + k);
-        for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t i = begin; i < n; ++i) {
             float* const out = &sums[i].r + k;
             const auto sent = hn::Mul(hn::LoadU(one, &weights[i].r + k), own);
             hn::StoreU(hn::MulAdd(sent, hn::Set(one, shares[i]), hn::LoadU(one, out)), one, out);

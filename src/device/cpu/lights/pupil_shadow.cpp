@@ -18,10 +18,14 @@ void PupilShadow::cover(std::span<const engine::SeenCaster> casters) {
 
 void PupilShadow::finish() {
     visible_ = Plane::uninitialised(taps_, taps_);
-    for (int y = 0; y < taps_; ++y)
-        for (int x = 0; x < taps_; ++x)
-            visible_(x, y) =
-                parts_ == 1 ? 1 - std::min(1.0f, covered_(x, y)) : visible(x * parts_, y * parts_);
+    for (int y = 0; y < taps_; ++y) {
+        float* const row = visible_.row(y);
+        if (parts_ > 1)
+            for (int x = 0; x < taps_; ++x) row[x] = visible(x * parts_, y * parts_);
+        else
+            std::transform(covered_.row(y), covered_.row(y) + taps_, row,
+                           [](float covered) { return 1 - (covered < 1 ? covered : 1.0f); });
+    }
     covered_ = {};
 }
 
