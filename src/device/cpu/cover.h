@@ -20,4 +20,7 @@ struct CoveredCells {
 // Adds to each cell the share of it that each rectangle covers, times its coverage.
 void cover(const CoveredCells& cells, std::span<const engine::SeenCaster> casters);
 
+// Sets the share of each cell that is left open; rectangles that overlap may cover more than all of it.
+void find_open(std::span<const float> covered, float* open);
+
 }  // namespace petzval::device

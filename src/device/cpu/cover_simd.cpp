@@ -106,6 +106,16 @@ void Cover(const CoveredCells& cells, std::span<const engine::SeenCaster> caster
     }
 }
 
+void FindOpen(std::span<const float> covered, float* HWY_RESTRICT open) {
+    const Floats d;
+    const std::size_t n = covered.size();
+    const auto all = hn::Set(d, 1.0f);
+    std::size_t i = 0;
+    for (; i + hn::Lanes(d) <= n; i += hn::Lanes(d))
+        hn::StoreU(hn::Sub(all, hn::Min(hn::LoadU(d, &covered[i]), all)), d, open + i);
+    for (; i < n; ++i) open[i] = 1 - std::min(1.0f, covered[i]);
+}
+
 }  // namespace petzval::device::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -113,10 +123,12 @@ HWY_AFTER_NAMESPACE();
 namespace petzval::device {
 
 HWY_EXPORT(Cover);
+HWY_EXPORT(FindOpen);
 
 void cover(const CoveredCells& cells, std::span<const engine::SeenCaster> casters) {
     HWY_DYNAMIC_DISPATCH(Cover)(cells, casters);
 }
+void find_open(std::span<const float> covered, float* open) { HWY_DYNAMIC_DISPATCH(FindOpen)(covered, open); }
 
 }  // namespace petzval::device
 #endif

@@ -62,5 +62,14 @@ TEST(Cover, RectanglesAddUp) {
     for (std::size_t i = 0; i < sum.size(); ++i) EXPECT_FLOAT_EQ(sum[i], first[i] + second[i]);
 }
 
+TEST(Cover, WhatIsNotCoveredIsOpen) {
+    std::vector<float> cells(kSide), open(kSide + 1, 7.0f);
+    for (std::size_t i = 0; i < kSide; ++i) cells[i] = 0.0625f * float(i % 20);
+    find_open(cells, open.data());
+    for (std::size_t i = 0; i < kSide; ++i)
+        EXPECT_EQ(open[i], std::max(0.0f, 1 - 0.0625f * float(i % 20))) << i;
+    EXPECT_EQ(open[kSide], 7.0f) << "beyond the row";
+}
+
 }  // namespace
 }  // namespace petzval::device

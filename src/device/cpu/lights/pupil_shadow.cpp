@@ -23,8 +23,7 @@ void PupilShadow::finish() {
         if (parts_ > 1)
             for (int x = 0; x < taps_; ++x) row[x] = visible(x * parts_, y * parts_);
         else
-            std::transform(covered_.row(y), covered_.row(y) + taps_, row,
-                           [](float covered) { return 1 - (covered < 1 ? covered : 1.0f); });
+            find_open({covered_.row(y), std::size_t(taps_)}, row);
     }
     covered_ = {};
 }
