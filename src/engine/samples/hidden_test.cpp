@@ -204,6 +204,15 @@ TEST(Hidden, ASlopingFloorLeavesRoomForTheBoxBesideIt) {
         EXPECT_NEAR(layers.front().colour.g, 0.5f, 0.04f) << y;
         EXPECT_EQ(layers.size(), 2U) << y;
     }
+    // A surface with next to nothing of the surroundings covers nothing.
+    int absent = 0;
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = kPost; x < kFloor; ++x)
+            for (const Hidden& h : hidden.at(x, y)) {
+                EXPECT_TRUE(h.share == 0 || h.share >= 0.002f) << x << ", " << y << ": " << h.share;
+                absent += h.share == 0 ? 1 : 0;
+            }
+    EXPECT_GT(absent, 0);
 }
 
 TEST(Hidden, LinesRunOnBehindAWire) {

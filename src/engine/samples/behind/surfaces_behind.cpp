@@ -16,10 +16,13 @@ constexpr float kCloseToOutlinePx = 4;
 constexpr std::size_t kSurfaces = HiddenLayers::kMost;
 
 // Rounds a share: a surface with most of the surroundings gets nearly all, one with little nearly nothing.
-// (Smoothstep, twice.)
+// (Smoothstep, twice.) One that would show less than kLeast covers nothing: every light would search it for
+// its shadow.
 float sharpened(float share) {
-    const float once = share * share * (3 - 2 * share);
-    return once * once * (3 - 2 * once);
+    constexpr float kLeast = 0.002f;
+    const float once = share * share * (3 - 2 * share), twice = once * once * (3 - 2 * once);
+    if (twice > 1 - kLeast) return 1;
+    return twice < kLeast ? 0 : twice;
 }
 
 // Removes the surface, of those ordered from the farthest to the nearest, that shows least of itself. The
