@@ -1,7 +1,7 @@
-"""How much of the quality is left where depth has soft silhouettes and 8 bits, as depth maps of networks have.
+"""How much of the quality is left where depth has soft silhouettes: antialiased, or as depth maps of networks have them.
 
-One table of dB, in Markdown, on stdout: exact depth, and soft depth through each choice of --depth-edges. Built-in scenes get
-their soft depth from `scene make --depth-blur 2 --depth-bits 8`.
+One table of dB, in Markdown, on stdout: exact depth, and both kinds of soft depth through --depth-edges keep and auto. Built-in
+scenes get them from `scene make --depth-filter mean` and `scene make --depth-blur 2 --depth-bits 8`.
 
 Usage: ./dev bench soft_depth [--scenes A,B] [--width N] [--samples N]
 """
@@ -11,6 +11,8 @@ from engines import built_in, took
 from quality import CACHE, machine, print_table, score
 
 SOFT = ["--depth-blur", "2", "--depth-bits", "8"]
+FILTERED = ["--depth-filter", "mean"]
+KEEP, AUTO = ["--depth-edges", "keep"], ["--depth-edges", "auto"]
 SCENES = "night,fence,table,bars,hair,post,meadow,tori,cutouts,lanterns"
 
 
@@ -23,13 +25,13 @@ def main():
     CACHE.mkdir(parents=True, exist_ok=True)
     out, body = CACHE / "soft_depth_out.exr", []
     for name in given.scenes.split(","):
-        exact, soft = (built_in(name, given.width, given.samples, extra=extra) for extra in ([], SOFT))
+        exact, filtered, soft = (built_in(name, given.width, given.samples, extra=extra) for extra in ([], FILTERED, SOFT))
         row = [name]
-        for scene, flags in ((exact, []), (soft, ["--depth-edges", "keep"]), (soft, ["--depth-edges", "auto"])):
+        for scene, flags in ((exact, []), (filtered, KEEP), (filtered, AUTO), (soft, KEEP), (soft, AUTO)):
             took(scene, flags, out, 1)
             row.append(score(exact, out)[0])
         body.append(row)
-    print_table(["scene", "exact depth", "soft, keep", "soft, auto"], body)
+    print_table(["scene", "exact depth", "antialiased, keep", "antialiased, auto", "soft, keep", "soft, auto"], body)
     print(f"\n{given.width} px wide, truth of {given.samples} lens samples. {machine()}.")
 
 

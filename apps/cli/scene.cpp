@@ -30,6 +30,7 @@ struct MakeFlags {
     RunFlags run;
 
     void add_to(Verb& verb);
+    void add_output_to(Verb& verb);
     void check(const Verb& verb);
 };
 
@@ -68,6 +69,10 @@ void MakeFlags::add_to(Verb& verb) {
             "light (default), or codes: light the scene in display codes, as programs that ignore gamma do; "
             "show that picture with --transfer linear --tone none",
             NameTable<bool>{{"light", false}, {"codes", true}}, scene.lit_in_codes)
+        .choice("--depth-filter",
+                "centre (default), depth of the surface at each pixel's centre; mean, antialiased: the mean "
+                "of the pixel's samples, as many renderers write it",
+                NameTable<bool>{{"centre", false}, {"mean", true}}, scene.depth_is_mean)
         .value("--depth-blur", "PX",
                "depth as neural networks estimate it: 1/depth blurred by a Gaussian of this standard "
                "deviation; truth "
@@ -76,6 +81,12 @@ void MakeFlags::add_to(Verb& verb) {
         .value("--depth-bits", "N", "round 1/depth to 2^N even steps; N is 8 or 16", parse_bits,
                scene.depth_bits);
     camera.add_to(verb, "scene");
+    add_output_to(verb);
+    run.add_threads_to(verb);
+    run.add_log_to(verb, true);
+}
+
+void MakeFlags::add_output_to(Verb& verb) {
     FlagGroup(verb, "Output")
         .writes_frames("-o,--output", "FILE.exr", "sharp picture, planar Z in metres and camera numbers",
                        output)
@@ -89,8 +100,6 @@ void MakeFlags::add_to(Verb& verb) {
             motion);
     run.add_json_of_frames_to(verb);
     overwrite.add_to(verb, false);
-    run.add_threads_to(verb);
-    run.add_log_to(verb, true);
 }
 
 SceneFiles files_of(const MakeFlags& flags) {

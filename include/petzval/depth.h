@@ -38,9 +38,10 @@ constexpr bool is_mist(DepthKind kind) {
 // Treatment of silhouettes that are ramps instead of steps, as in depth of neural networks or in filtered
 // and enlarged passes. No surface lies at the depth of a pixel in a ramp.
 enum class DepthEdges {
-    Auto,  // snap where most silhouettes are soft; depth of renderers stays as it is, bit for bit
+    Auto,  // snap where most silhouettes are soft or many are antialiased; exact depth keeps its bits
     Keep,  // use every value unchanged
-    Snap,  // give each pixel of a ramp to the nearer or the farther side, by its colour and place
+    Snap,  // give each pixel of a ramp to the nearer or the farther side: in wide ramps by its colour and
+           // place, in antialiased depth by its depth
 };
 
 struct DepthSettings {

@@ -53,9 +53,11 @@ struct SceneSettings {
     // Position of the camera, and the point in the middle of its picture; upright. Default: the scene's own
     // at that frame. With camera_at only, the direction stays.
     std::optional<ScenePoint> camera_at, look_at;
+    // Depth as renderers write it that filter it like colour: the mean of a pixel's samples, with the sky at
+    // 1e10 m. Truth and layers stay exact, here and below.
+    bool depth_is_mean = false;
     // Depth as a neural network estimates it from a photograph: 1/depth is blurred by a Gaussian of this
-    // standard deviation in pixels and rounded to 2^bits even steps. 0: exact. Truth and layers keep the
-    // exact depth.
+    // standard deviation in pixels and rounded to 2^bits even steps. 0: exact.
     double depth_blur_px = 0;
     int depth_bits = 0;
     // Lights the scene like programs that treated display codes as light: colours are replaced by their

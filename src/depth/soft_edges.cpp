@@ -12,6 +12,7 @@ namespace {
 
 constexpr float kLeastStep = 0.05f;  // of the range: lesser ones tell nothing
 constexpr int kWidestRamp = 24;      // px; what changes for longer is a surface
+constexpr int kFew = 16;             // edges: they tell nothing about the others
 
 // The range of all values but the outermost hundredths.
 float range_of(View<const float> values) {
@@ -349,9 +350,14 @@ private:
 }  // namespace
 
 bool EdgeSoftness::is_soft() const {
-    constexpr int kFew = 16;
-    constexpr float kFilteredPx = 0.6f;
+    constexpr float kFilteredPx = 0.6f;  // steps filtered over a pixel have 0.5 at the most
     return edges >= kFew && deviation_px > kFilteredPx;
+}
+
+bool EdgeSoftness::is_filtered() const {
+    constexpr int kManyEdges = 256;  // in thumbnails, many edges have a third surface right beside them
+    constexpr float kManyRamps = 0.28f;
+    return edges >= kManyEdges && !is_soft() && filtered > kManyRamps;
 }
 
 EdgeSoftness edge_softness(View<const float> values, Workers& workers) {
@@ -366,6 +372,11 @@ EdgeSoftness edge_softness(View<const float> values, Workers& workers) {
     for (const auto& line : found) all.insert(all.end(), line.begin(), line.end());
     softness.edges = int(all.size());
     if (all.empty()) return softness;
+    constexpr float kStepPx = 0.2f, kNarrowPx = 0.8f;
+    const auto narrower = [&](float px) {
+        return float(std::count_if(all.begin(), all.end(), [px](float d) { return d < px; }));
+    };
+    softness.filtered = 1 - narrower(kStepPx) / std::max(1.0f, narrower(kNarrowPx));
     // Ramps that are cut aslant, or lie on slopes, are wider.
     constexpr double kNarrow = 0.4;
     const auto narrow = all.begin() + std::ptrdiff_t(double(all.size()) * kNarrow);

@@ -11,9 +11,13 @@ namespace petzval {
 struct EdgeSoftness {
     int edges = 0;           // places, along rows and columns, where one plateau steps or slopes to another
     float deviation_px = 0;  // standard deviation of what blurred them; steps have 0
+    float filtered = 0;      // share of those as narrow as a pixel that are ramps nevertheless
     float range = 0;         // of values, but for the outermost hundredths
-    // Steps filtered over a pixel have 0.5 at the most.
+    // True if ramps are wider than those of a renderer's filter.
     bool is_soft() const;
+    // True if they are as narrow as those of a renderer's filter. From 160 px of width on, exact depth of 190
+    // scenes has 0.24 at the most, that of the same scenes filtered at least 0.32.
+    bool is_filtered() const;
 };
 
 // Softness of values that are linear in 1/depth, like a radius: a plane changes by the same amount from pixel

@@ -61,6 +61,7 @@ TEST(SoftEdges, StepsAreNotSoft) {
     EXPECT_GE(softness.edges, 50);
     EXPECT_EQ(softness.deviation_px, 0);
     EXPECT_FALSE(softness.is_soft());
+    EXPECT_FALSE(softness.is_filtered());
 }
 
 TEST(SoftEdges, NorAreStepsThatWereFilteredOverAPixel) {
@@ -72,7 +73,9 @@ TEST(SoftEdges, NorAreStepsThatWereFilteredOverAPixel) {
                                                                                                    : kFar;
         return sum / 16;
     };
-    EXPECT_FALSE(edge_softness(plane_of(filtered), one_thread()).is_soft());
+    const EdgeSoftness softness = edge_softness(plane_of(filtered), one_thread());
+    EXPECT_FALSE(softness.is_soft());
+    EXPECT_GT(softness.filtered, 0.5f);
 }
 
 TEST(SoftEdges, AFloorThatRecedesIsNoEdge) {

@@ -16,6 +16,8 @@ constexpr int kMaxSteps = 64;   // including surfaces seen from inside
 // Hits of one object in one pixel whose depths leave a gap of more than this share belong to separate sheets.
 constexpr float kDepthGap = 0.01f;
 
+constexpr float kSkyDepth = 1e10f;  // m: where depth is averaged, in place of infinity
+
 struct PeeledHit {
     std::uint32_t object;
     int ray;
@@ -41,14 +43,20 @@ public:
     // The row of the pictures that lies at y in the frame.
     void render(Rgba* colour, float* depth_m) {
         std::vector<Vec3> seen;  // of the pixels that are traced together
+        std::vector<float> depths;
         for (int x = pass_.area.x0; x < pass_.area.x1; ++x) {
             const std::size_t pixel = std::size_t(x - pass_.area.x0) % std::size_t(together());
             if (pixel == 0) {
                 trace_pixels(x);
                 seen.assign(std::size_t(together()), {});
-                for (const PeeledHit& hit : first_hits_) seen[std::size_t(hit.ray / rays())] += hit.radiance;
+                depths.assign(std::size_t(together()), 0);
+                for (const PeeledHit& hit : first_hits_) {
+                    seen[std::size_t(hit.ray / rays())] += hit.radiance;
+                    depths[std::size_t(hit.ray / rays())] += std::min(hit.depth_m, kSkyDepth) / float(rays());
+                }
             }
             Vec3 sum = seen[pixel] / float(rays());
+            depth_m[x - pass_.area.x0] = depths[pixel];
             const std::size_t before = samples.size();
             for (const LampImage* lamp : lamps_)
                 if (lamp->touches({x, y_, x + 1, y_ + 1})) sum += collect_lamp(*lamp, x);
@@ -58,7 +66,7 @@ public:
             std::sort(samples.begin() + std::ptrdiff_t(before), samples.end(),
                       [](const DeepSample& a, const DeepSample& b) { return a.depth < b.depth; });
         }
-        trace_centres(depth_m);
+        if (!pass_.depth_is_mean) trace_centres(depth_m);
     }
 
     std::vector<DeepSample> samples;

@@ -140,7 +140,8 @@ Result<RenderedScene> render(const World& world, const WorldsAround& around, con
               seed,
               workers,
               progress,
-              1 - truth_share};
+              1 - truth_share,
+              settings.depth_is_mean};
     const Error cancelled{ErrorCode::Cancelled, "rendering of the scene was cancelled"};
     RenderedScene result;
     result.camera = camera;

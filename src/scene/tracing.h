@@ -51,6 +51,7 @@ struct Pass {
     Workers& workers;
     Progress& progress;
     double share = 0;  // of the whole work
+    bool depth_is_mean = false;
 };
 
 // Pinhole colour and depth, and the layers (see RenderedScene) when `layers` is not null.

@@ -94,6 +94,7 @@ Json parameters_of(const SceneSettings& scene) {
               {"samples", scene.truth_samples},
               {"pinhole_samples", scene.samples},
               {"seed", scene.seed},
+              {"depth_filter", scene.depth_is_mean ? "mean" : "centre"},
               {"depth_blur_px", scene.depth_blur_px},
               {"depth_bits", scene.depth_bits},
               {"lit_in", scene.lit_in_codes ? "codes" : "light"}};

@@ -54,7 +54,7 @@ VALUES = {
     "--report": "{o}/report.jsonl", "--track": "track.csv", "--rack": "1:3,3", "--focus-speed": "0.1", "--temporal": "1",
     "--motion": "off", "--motion-scale": "2", "--exposure": "1", "--contrast": "2", "--tone": "none", "--ocio": "a,b",
     "--ocio-space": "a", "--device": "gpu:99", "--width": "24", "--height": "40", "--frame": "3", "--samples": "4",
-    "--pinhole-samples": "3", "--scene-camera": "2", "--camera-at": "1,1,-1", "--look-at": "1,1,4", "--lit-in": "codes",
+    "--pinhole-samples": "3", "--scene-camera": "2", "--camera-at": "1,1,-1", "--look-at": "1,1,4", "--lit-in": "codes", "--depth-filter": "mean",
     "--depth-blur": "3", "--depth-bits": "8", "--truth": "{o}/truth.exr", "--horizon": "0.3", "--count": "5", "--bits": "16",
     "--at": "20,12", "--within": "20", "--smooth": "0", "--plot": "{o}/plot.svg", "--columns": "3", "--rate": "12",
     "--zones": "3", "--slices": "3", "--side": "21", "--lenses": "doublet", "--sort": "name", "--roi": "3,3,20,15", "--defocus": "5", "--field": "0.5,0.3", "--size": "31", "--rows-per-pixel": "2",

@@ -36,6 +36,7 @@ const Rows& source_flags() {
         {"scene.camera_at", "--camera-at"},
         {"scene.depth_bits", "--depth-bits"},
         {"scene.depth_blur_px", "--depth-blur"},
+        {"scene.depth_is_mean", "--depth-filter mean"},
         {"scene.frame", "--frame"},
         {"scene.height", "--height"},
         {"scene.layers", "--layers"},

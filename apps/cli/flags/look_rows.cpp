@@ -79,8 +79,8 @@ std::vector<LookRow> rows_of_input_and_focus() {
         row("Input", "--highlight-peak", "plate.peak", value("LIGHT", parse_positive),
             "scene brightness assumed for pixel value 1.0 (default 16, four stops above white)"),
         row("Input", "--depth-edges", "depth.edges", name<DepthEdges>(),
-            "sharpen soft depth edges, as in depth maps of neural networks: auto, only if most edges are "
-            "soft (default); snap, always; keep, never"),
+            "sharpen soft depth edges, as in antialiased depth and in depth maps of neural networks: auto, "
+            "only if most edges are soft or many are antialiased (default); snap, always; keep, never"),
         row("Focus", "--focus-range", "focus.range_m", value("M,M", parse_range_m),
             "keep everything between two distances sharp, such as 1.8m,3m"),
         row("Focus", "--focus-falloff", "focus.falloff", value("FRACTION", parse_not_negative),

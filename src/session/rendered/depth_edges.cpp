@@ -1,9 +1,11 @@
 #include "session/rendered/depth_edges.h"
 
 #include "base/parallel.h"
+#include "depth/filtered_edges.h"
 #include "depth/soft_edges.h"
 #include "engine/samples/all_samples.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -22,7 +24,21 @@ Plane linear_values(View<const float> depth, bool is_radii, Workers& workers) {
     return values;
 }
 
+// Depth as it was averaged; 1e10 m, the sky of most renderers, for infinite.
+Plane with_finite_sky(View<const float> depth, Workers& workers) {
+    Plane values = Plane::uninitialised(depth.width(), depth.height());
+    parallel_for(depth.height(), workers, [&](int y) {
+        for (int x = 0; x < depth.width(); ++x)
+            values(x, y) = std::min(1e10f, float(engine::finite_depth(double(depth(x, y)))));
+    });
+    return values;
+}
+
 std::string in_words(const EdgeSoftness& softness) {
+    if (!softness.is_soft())
+        return std::string(softness.is_filtered() ? "the depth is antialiased; " : "") +
+               "pixels between two depths were given to one of them; depth.edges keep leaves them as they "
+               "are";
     char text[160];
     std::snprintf(text, sizeof text,
                   "soft depth edges (about %.0f px) were sharpened using the colour image; "
@@ -40,17 +56,27 @@ HardDepth hard_depth(const Rendered& rendered, DepthEdges edges, Workers& worker
     const View<const float> given = depth_or_radii(rendered);
     const Plane values = linear_values(given, is_radii, workers);
     const EdgeSoftness softness = edge_softness(values, workers);
-    if (edges == DepthEdges::Auto && !softness.is_soft()) return hard;
-    hard.plane = snapped_edges(rendered.colour, values, softness, workers);
-    parallel_for(hard.plane.height(), workers, [&](int y) {
-        for (int x = 0; x < hard.plane.width(); ++x) {
-            float& v = hard.plane(x, y);
-            if (v == values(x, y))
-                v = given(x, y);
-            else if (!is_radii)
-                v = 1 / v;
-        }
-    });
+    if (edges == DepthEdges::Auto && !softness.is_soft() && !softness.is_filtered()) return hard;
+    const auto replace = [&](Plane hardened, const Plane& before, bool is_inverse) {
+        parallel_for(hardened.height(), workers, [&](int y) {
+            for (int x = 0; x < hardened.width(); ++x) {
+                float& v = hardened(x, y);
+                if (v == before(x, y))
+                    v = given(x, y);
+                else if (is_inverse)
+                    v = 1 / v;
+            }
+        });
+        hard.plane = std::move(hardened);
+    };
+    if (softness.is_soft()) {
+        replace(snapped_edges(rendered.colour, values, softness, workers), values, !is_radii);
+    } else {
+        constexpr float kLeastStep = 0.01f;  // of the range: what is less makes no difference in blur
+        const float least = kLeastStep * softness.range;
+        const Plane depth = is_radii ? values.clone() : with_finite_sky(given, workers);
+        replace(without_filter(rendered.colour, {depth, values, is_radii, least}, workers), depth, false);
+    }
     hard.what_was_done = in_words(softness);
     return hard;
 }
