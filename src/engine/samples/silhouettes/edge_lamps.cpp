@@ -11,9 +11,10 @@
 namespace petzval::engine {
 namespace {
 
-// A pixel and its place, by the light of lamps in it; clean: it touches no silhouette.
+// A pixel and its place, by the light of lamps in it and by all that it shows; clean: it touches no
+// silhouette.
 struct LitPixel {
-    float light = 0, coc_px = 0;
+    float light = 0, shown = 0, coc_px = 0;
     bool clean = false;
     int x = 0, y = 0;
 };
@@ -33,6 +34,14 @@ bool stands_before(float lit_px, float first_px, float last_px) {
     return laws::is_in_front(lit_px, first_px, std::max(kBodyPx, slope));
 }
 
+// True if a clean pixel right beside the lit one is less than a tenth as bright: a lamp on the surface would
+// light it too, so this one is cut off by the edge. (Lit edges of the surface itself are less bright.)
+bool is_cut_off(const LitPixel& lit, const LitPixel& beside) {
+    constexpr float kBrighter = 10;
+    return beside.clean && std::abs(beside.x - lit.x) + std::abs(beside.y - lit.y) == 1 &&
+           lit.light > kBrighter * beside.shown;
+}
+
 // Certainty that a lamp which lights the nearer side belongs to the surface of its brightest pixel. A lamp
 // that lights only a few pixels of that surface, and none that touches no silhouette, shines past its edge.
 float share_of_surface(const std::vector<LitPixel>& nearer) {
@@ -41,16 +50,19 @@ float share_of_surface(const std::vector<LitPixel>& nearer) {
                                             [](const auto& a, const auto& b) { return a.light < b.light; });
     if (brightest == nearer.end()) return 1;
     int pixels = 0, lit = 0;
+    bool cut_off = false;
     float nearest_unlit = std::numeric_limits<float>::infinity(), farthest_unlit = -nearest_unlit;
     for (const LitPixel& p : nearer) {
         if (std::abs(p.coc_px - brightest->coc_px) > completion_model.step_px) continue;
         if (p.light > 0 && p.clean) return 1;
         ++pixels, lit += p.light > 0;
+        cut_off = cut_off || is_cut_off(*brightest, p);
         if (p.light > 0) continue;
         nearest_unlit = std::min(nearest_unlit, p.coc_px);
         farthest_unlit = std::max(farthest_unlit, p.coc_px);
     }
     if (lit < pixels && stands_before(brightest->coc_px, nearest_unlit, farthest_unlit)) return 1;
+    if (cut_off) return few_lit;
     return std::clamp((float(lit) / float(pixels) - few_lit) / (many_lit - few_lit), few_lit, 1.0f);
 }
 
@@ -84,7 +96,7 @@ LampsBehind find_lamps(const LitPicture& picture, View<const float> coc, View<co
             const Rgba lamp = picture.colour(u, v) - picture.dim(u, v);
             const float light = luminance(lamp) * alike(lamp, own);
             if (coc(u, v) <= threshold) {
-                nearer.push_back({light, coc(u, v), !touching(u, v), u, v});
+                nearer.push_back({light, luminance(picture.colour(u, v)), coc(u, v), !touching(u, v), u, v});
                 near = std::max(near, light);
             } else if (light > far) {
                 far = light, far_coc = coc(u, v);

@@ -67,6 +67,19 @@ TEST(EdgeLamps, ALampCloseBeforeASurfaceIsNotBehindIt) {
     }
 }
 
+// A lamp behind a post shows half of itself along the post's edge: four pixels that have the post's depth,
+// and none beside them on the post.
+TEST(EdgeLamps, ALampThatTheEdgeCutsOffLiesBehindIt) {
+    for (const float post : {0.1f, 0.5f}) {
+        Scene scene;
+        for (int y = 0; y < kSize; ++y)
+            for (int x = kMiddle; x < kSize; ++x)
+                scene.coc(x, y) = kNearPx, scene.colour(x, y) = {post, post, post, 1};
+        for (int y = kMiddle - 2; y <= kMiddle + 1; ++y) scene.colour(kMiddle, y) = {4, 4, 4, 1};
+        EXPECT_EQ(scene.share_behind() > 0.5f, post < 0.4f) << "lit edges are no lamps: " << post;
+    }
+}
+
 // A pixel of a globe's rim has the globe's depth, the ones above and below have the wall's: the globe fills
 // half of each of the three.
 TEST(EdgeLamps, ARimPixelThatStandsOutOfAGlobeIsNoStrand) {
