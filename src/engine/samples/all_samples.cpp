@@ -60,6 +60,17 @@ bool is_from_behind(BigVector<CocSample>& samples, std::size_t first, Rgba pictu
     return false;
 }
 
+// True if a sample no more than kTogetherPx behind the first one is as bright as the picture. Where surfaces
+// run into each other, such as hair and a scalp, the mean depths of samples in a pixel do not say which one
+// shows.
+bool is_of_those_together(const BigVector<CocSample>& samples, std::size_t first, Rgba picture) {
+    for (std::size_t k = first; k < samples.size(); ++k) {
+        if (samples[k].coc_px - samples[first].coc_px > kTogetherPx) return false;
+        if (luminance(samples[k].colour) >= samples[k].colour.a * luminance(picture)) return true;
+    }
+    return false;
+}
+
 // A stated sample is the mean of its surface over the pixel. The visible parts of samples from `first` on are
 // scaled to sum to the picture's colour, if they lie so close together that no lens sees past one of them to
 // the next, and if the picture is not brighter than they are because of light from behind.
@@ -77,7 +88,8 @@ void match_what_shows(BigVector<CocSample>& samples, std::size_t first, Rgba pic
         if (s.colour.a > 0) shown += std::min(1.0f, (1 - in_front) / s.colour.a) * s.colour;
     }
     const float brighter = luminance(picture) / std::max(luminance(shown), kDark);
-    if (brighter > kBrighter && is_from_behind(samples, first, picture, brighter > kFarBrighter)) return;
+    const bool far_brighter = brighter > kFarBrighter && !is_of_those_together(samples, first, picture);
+    if (brighter > kBrighter && is_from_behind(samples, first, picture, far_brighter)) return;
     const float together = std::clamp((kApartPx - span_px) / (kApartPx - kTogetherPx), 0.0f, 1.0f);
     const auto times = [&](float is, float want) { return is > kDark ? 1 + together * (want / is - 1) : 1; };
     const float r = times(shown.r, picture.r), g = times(shown.g, picture.g), b = times(shown.b, picture.b);

@@ -82,5 +82,17 @@ TEST(AllSamples, NoLightComesThroughAWall) {
     EXPECT_EQ(samples[2].colour.a, 1) << "the wall";
 }
 
+// A hair runs into the scalp: its mean depth lies in front of it, though the pixel shows nearly the scalp
+// alone. The sky far behind has nothing to do with it.
+TEST(AllSamples, OfSurfacesThatMeetThePictureShowsWhichIsInFront) {
+    const Rgba scalp{0.32f, 0.21f, 0.16f, 1};
+    const auto samples = samples_of(scalp, 0.01f,
+                                    {{{0.037f, 0.021f, 0.01f, 0.984f}, 0.010f, 0.010f},
+                                     {{0.37f, 0.24f, 0.18f, 1}, 0.011f, 0.011f},
+                                     {{0.62f, 0.63f, 0.65f, 1}, 9, 9}});
+    ASSERT_GE(samples.size(), 1u);
+    EXPECT_NEAR(samples[0].colour.r, scalp.r, 0.05f);
+}
+
 }  // namespace
 }  // namespace petzval::engine
