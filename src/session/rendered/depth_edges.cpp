@@ -1,6 +1,7 @@
 #include "session/rendered/depth_edges.h"
 
 #include "base/parallel.h"
+#include "depth/emptiness_edges.h"
 #include "depth/filtered_edges.h"
 #include "depth/soft_edges.h"
 #include "engine/samples/all_samples.h"
@@ -34,9 +35,9 @@ Plane with_finite_sky(View<const float> depth, Workers& workers) {
     return values;
 }
 
-std::string in_words(const EdgeSoftness& softness) {
+std::string in_words(const EdgeSoftness& softness, bool is_filtered) {
     if (!softness.is_soft())
-        return std::string(softness.is_filtered() ? "the depth is antialiased; " : "") +
+        return std::string(is_filtered ? "the depth is antialiased; " : "") +
                "pixels between two depths were given to one of them; depth.edges keep leaves them as they "
                "are";
     char text[160];
@@ -53,10 +54,16 @@ HardDepth hard_depth(const Rendered& rendered, DepthEdges edges, Workers& worker
     HardDepth hard;
     if (edges == DepthEdges::Keep || (rendered.deep && !rendered.deep->empty())) return hard;
     const bool is_radii = has_radii(rendered);
-    const View<const float> given = depth_or_radii(rendered);
+    View<const float> given = depth_or_radii(rendered);
+    Plane without_zeros;
+    if (!is_radii && dips_before_emptiness(given, workers)) {
+        without_zeros = without_dips(given, workers);
+        given = without_zeros;
+    }
     const Plane values = linear_values(given, is_radii, workers);
     const EdgeSoftness softness = edge_softness(values, workers);
-    if (edges == DepthEdges::Auto && !softness.is_soft() && !softness.is_filtered()) return hard;
+    const bool is_filtered = !without_zeros.empty() || softness.is_filtered();
+    if (edges == DepthEdges::Auto && !softness.is_soft() && !is_filtered) return hard;
     const auto replace = [&](Plane hardened, const Plane& before, bool is_inverse) {
         parallel_for(hardened.height(), workers, [&](int y) {
             for (int x = 0; x < hardened.width(); ++x) {
@@ -77,7 +84,7 @@ HardDepth hard_depth(const Rendered& rendered, DepthEdges edges, Workers& worker
         const Plane depth = is_radii ? values.clone() : with_finite_sky(given, workers);
         replace(without_filter(rendered.colour, {depth, values, is_radii, least}, workers), depth, false);
     }
-    hard.what_was_done = in_words(softness);
+    hard.what_was_done = in_words(softness, is_filtered);
     return hard;
 }
 
