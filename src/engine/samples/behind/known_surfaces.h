@@ -19,13 +19,20 @@ inline bool one_surface(float coc_a_px, float coc_b_px) {
     return std::abs(coc_a_px - coc_b_px) < surface_step_px(coc_a_px, coc_b_px);
 }
 
-// The radius from which on a pixel near a silhouette shows a third surface, behind the two that meet there.
-// Pixels of the farther of these lie behind threshold_px, one at `own_px` by half of the step. An eighth of
-// the step leaves room for the slope of that surface, but never so much that it is another surface.
-inline float third_surface_px(float own_px, float threshold_px) {
-    if (own_px <= threshold_px) return std::numeric_limits<float>::infinity();
-    const float slope = completion_model.third_surface * (own_px - threshold_px);
-    return own_px + std::min(surface_step_px(own_px, own_px), slope);
+// Radii behind the threshold of a silhouette that show the farther of the two surfaces that meet there.
+struct FarSide {
+    float beyond_px, most_px;
+    bool shows(float coc_px) const { return coc_px > beyond_px && coc_px <= most_px; }
+};
+
+// The far side as a pixel at own_px sees it. If that pixel shows the farther surface, what differs from it by
+// a silhouette's step is another one, such as a sign before a wall. Backwards there is even less room: an
+// eighth of the step at this silhouette, of which own_px lies half behind the threshold.
+inline FarSide far_side(float own_px, float threshold_px) {
+    if (own_px <= threshold_px) return {threshold_px, std::numeric_limits<float>::infinity()};
+    const float step_px = completion_model.step_between_px(own_px, own_px);
+    const float slope_px = completion_model.third_surface * (own_px - threshold_px);
+    return {std::max(threshold_px, own_px - step_px), own_px + std::min(step_px, slope_px)};
 }
 
 struct Direction {

@@ -15,12 +15,12 @@ Sides look_around(const LitPicture& picture, View<const float> coc, View<const f
     const int reach = rule.clean_within_px;
     const Rect window = Rect{x - reach, y - reach, x + reach + 1, y + reach + 1}.intersected(coc.rect());
     const float own_light = std::max(0.0f, luminance(picture.dim(x, y))) + picture.black();
-    const float third = third_surface_px(coc(x, y), threshold);
+    const FarSide side = far_side(coc(x, y), threshold);
     for (int v = window.y0; v < window.y1; ++v)
         for (int u = window.x0; u < window.x1; ++u) {
-            if (coc(u, v) > third) continue;
-            const float d2 = float((u - x) * (u - x) + (v - y) * (v - y));
             const bool near = coc(u, v) <= threshold;
+            if (!near && !side.shows(coc(u, v))) continue;
+            const float d2 = float((u - x) * (u - x) + (v - y) * (v - y));
             const Rgba colour = picture.dim(u, v);
             // Far pixels count little, and pixels much brighter than this one too: a lamp nearby is not this
             // surface.

@@ -53,12 +53,12 @@ private:
     // visit(u, v, near_by) for the pixels around that show the surface behind a strand at (x, y).
     template <typename Visit>
     void for_each_behind(int x, int y, int reach_px, float threshold_px, const Visit& visit) const {
-        const float third = third_surface_px(coc_(x, y), threshold_px);
+        const FarSide side = far_side(coc_(x, y), threshold_px);
         const Rect window =
             Rect{x - reach_px, y - reach_px, x + reach_px + 1, y + reach_px + 1}.intersected(coc_.rect());
         for (int v = window.y0; v < window.y1; ++v)
             for (int u = window.x0; u < window.x1; ++u) {
-                if (coc_(u, v) > third || coc_(u, v) <= threshold_px) continue;
+                if (!side.shows(coc_(u, v))) continue;
                 const float d2 = float((u - x) * (u - x) + (v - y) * (v - y));
                 visit(u, v, 1 / (1 + d2 * d2));
             }

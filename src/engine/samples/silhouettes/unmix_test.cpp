@@ -28,6 +28,27 @@ TEST(Unmix, ASurfaceBetweenTwoOthersKeepsItsOwnColour) {
     EXPECT_EQ(beside_leaf->far_coc_px, 0);
 }
 
+// A lit sign a pixel of radius before a dark wall, seen between two bars. Between the bars the sign has clean
+// pixels and the wall, where they are closer, has none.
+TEST(Unmix, ASignBesideASurfaceSaysNothingOfIt) {
+    constexpr int kSize = 32, kWall = 14, kBar = 16, kSignBar = 17;
+    const Rgba sign{0.3f, 2, 1, 1}, wall{0.1f, 0.07f, 0.05f, 1}, bar{0.01f, 0.01f, 0.01f, 1};
+    Picture colour(kSize, kSize, bar);
+    Plane coc(kSize, kSize, -11);
+    for (int y = 14; y < kSignBar; ++y)
+        for (int x = 0; x < kSize; ++x) {
+            if (x >= kWall && y >= kBar) continue;
+            colour(x, y) = x < kWall ? sign : wall;
+            coc(x, y) = x < kWall ? 1.7f : 2.7f;
+        }
+    const Mixtures mixtures =
+        unmix_silhouettes({colour, {}}, coc, connections(coc, one_thread()), one_thread());
+    const Mixture* const beside = mixtures.at(kWall + 1, kBar - 1);
+    ASSERT_NE(beside, nullptr);
+    EXPECT_TRUE(beside->shows_far);
+    EXPECT_LT(beside->far_colour.g, 0.2f);
+}
+
 // A bottle in focus before a wall slightly out of focus, with a filtered edge: its pixel would otherwise be
 // blurred with the wall. Two wide blurs that differ as much stay one surface.
 TEST(Unmix, AnEdgeInFocusIsSeparatedAtANarrowerStep) {
