@@ -18,10 +18,11 @@ bool alike(Rgba a, Rgba b) {
 }
 
 // True if a pixel's light is that of a small lamp with the pixel's depth: its whole surface nearby is lit,
-// most of everything else is dark.
+// most of everything else is dark. At the border of the picture no pixel counts as one.
 bool is_lamp(const Shot& shot, View<const float> depth, int x, int y) {
     constexpr int kAround = 2, kLeastOthers = 17;  // px
     constexpr float kStandsOut = 8;                // times the light around
+    if (!depth.rect().grown(-kAround).contains(x, y)) return false;
     const float light = luminance(shot.colour(x, y)), own = depth(x, y);
     const auto is_dark = [&](int u, int v) { return kStandsOut * luminance(shot.colour(u, v)) <= light; };
     if (!(own > 0 && light > 0) || std::isinf(own)) return false;
@@ -40,19 +41,18 @@ bool is_lamp(const Shot& shot, View<const float> depth, int x, int y) {
 }  // namespace
 
 void OtherLamps::add(const Shot& other, const Image<Landing>& landings, float share, Workers& workers) {
-    constexpr int kBorder = 2;
     const View<const float> depth = other.depth_plane();
     std::vector<std::vector<int>> found(std::size_t(depth.height()));
     for_rows(depth.height(), workers, [&](int y) {
-        if (y < kBorder || y >= depth.height() - kBorder) return;
-        for (int x = kBorder; x < depth.width() - kBorder; ++x)
+        for (int x = 0; x < depth.width(); ++x)
             if (is_lamp(other, depth, x, y)) found[std::size_t(y)].push_back(x);
     });
     for (int y = 0; y < depth.height(); ++y)
         for (const int x : found[std::size_t(y)]) place(other.colour(x, y), landings(x, y), share);
 }
 
-// Within a pixel nobody knows where it is: it lights the brightest of those around.
+// Within a pixel nobody knows where it is: it lights the brightest of those around. If that has the depth of
+// another lamp, it keeps it: two lamps of one pixel would take turns from frame to frame.
 void OtherLamps::place(Rgba light, const Landing& at, float share) {
     const View<const float> depth = shot_.depth_plane();
     const float left = std::floor(at.x), top = std::floor(at.y);
@@ -70,7 +70,7 @@ void OtherLamps::place(Rgba light, const Landing& at, float share) {
             brightest = luminance(there), lit = {v, u};
         }
     if (lit.first >= 0) {
-        depths_m_.emplace(lit, at.depth_m);
+        if (!is_lamp(shot_, depth, lit.second, lit.first)) depths_m_.emplace(lit, at.depth_m);
     } else if (kSilhouette * depth(x, y) < at.depth_m) {
         const Rgba shows = share * light;
         hidden_.emplace(std::pair{y, x}, DeepSample{{shows.r, shows.g, shows.b, 1}, at.depth_m, at.depth_m});

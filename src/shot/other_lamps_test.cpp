@@ -83,6 +83,15 @@ TEST(OtherLamps, WhatIsKnownOrIsNoLampStays) {
         << "a lit surface";
 }
 
+TEST(OtherLamps, ALampKeepsItsDepthBesideAnother) {
+    const Shot shot = shot_of({});
+    Shot other = shot_of({});
+    std::get<DepthMetres>(other.depth).plane(lamp_column({}), kHeight / 2) = 0.8f * kLamp;
+    EXPECT_TRUE(seen(shot, {{&other, 1}}).lamps.empty());
+    const Shot unknown = shot_of({.lamp = Lamp::WithAnother});
+    EXPECT_EQ(seen(unknown, {{&other, 1}}).lamps.size(), 1u) << "the other lamp is seen";
+}
+
 TEST(OtherLamps, AHiddenLampFadesInBeforeItComesOut) {
     // The lamp at 0.4 m is 8 px right of the middle, behind the card; from 0.2 m beside, the card ends 4 px
     // to its left.
