@@ -77,7 +77,7 @@ bool dips_before_emptiness(View<const float> depth_m, Workers& workers) {
         for (int x = 0; x < depth_m.width(); ++x) {
             if (outlines.is_empty(x, y)) continue;
             for (const Towards inside : {kAllWays[0], kAllWays[1], kAllWays[2], kAllWays[3]}) {
-                if (outlines.distance_px(x, y, inside) > 1) continue;
+                if (!outlines.is_empty(x - inside.dx, y - inside.dy)) continue;
                 const float surface_m = outlines.surface_m(x, y, inside);
                 if (surface_m <= 0) continue;
                 Count& row = rows[std::size_t(y)];
