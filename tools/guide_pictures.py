@@ -96,8 +96,10 @@ def camera_numbers(studio):
 
 
 def soft_depth(studio):
+    antialiased = studio.scene("lanterns", "--depth-filter", "mean", width=480)
     soft = studio.scene("tori", "--depth-blur", 2, "--depth-bits", 8, width=480)
-    write("soft-depth", [studio.blurred(soft, "--depth-edges", edges) for edges in ("keep", "auto")])
+    write("soft-depth", *([studio.blurred(scene, "--depth-edges", edges) for edges in ("keep", "auto")]
+                          for scene in (antialiased, soft)))
 
 
 def presets(studio):
