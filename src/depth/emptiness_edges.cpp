@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::infinity();
 constexpr int kFilter = 4, kInside = 3;  // px: mixed pixels beside emptiness; pixels inside of one
-constexpr float kDip = 0.9f;
+constexpr float kDip = 0.9f;             // of the depth inside
 
 struct Towards {
     int dx, dy;

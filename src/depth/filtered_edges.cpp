@@ -186,7 +186,7 @@ private:
         constexpr float kSame = 0.01f;  // of the depth
         const Plane& d = depth_.averaged;
         const Rect around = Rect{x - 1, y - 1, x + 2, y + 2}.intersected(is_strand_.rect());
-        int same = -1;  // but for the pixel itself
+        int same = -1;  // the loop counts the pixel itself, too
         for (int v = around.y0; v < around.y1; ++v)
             for (int u = around.x0; u < around.x1; ++u)
                 same += std::abs(d(u, v) - d(x, y)) < kSame * std::abs(d(x, y));

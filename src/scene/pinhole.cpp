@@ -43,20 +43,21 @@ public:
     // The row of the pictures that lies at y in the frame.
     void render(Rgba* colour, float* depth_m) {
         std::vector<Vec3> seen;  // of the pixels that are traced together
-        std::vector<float> depths;
+        std::vector<float> mean_depths_m;
         for (int x = pass_.area.x0; x < pass_.area.x1; ++x) {
             const std::size_t pixel = std::size_t(x - pass_.area.x0) % std::size_t(together());
             if (pixel == 0) {
                 trace_pixels(x);
                 seen.assign(std::size_t(together()), {});
-                depths.assign(std::size_t(together()), 0);
+                mean_depths_m.assign(std::size_t(together()), 0);
                 for (const PeeledHit& hit : first_hits_) {
-                    seen[std::size_t(hit.ray / rays())] += hit.radiance;
-                    depths[std::size_t(hit.ray / rays())] += std::min(hit.depth_m, kSkyDepth) / float(rays());
+                    const auto hit_pixel = std::size_t(hit.ray / rays());
+                    seen[hit_pixel] += hit.radiance;
+                    mean_depths_m[hit_pixel] += std::min(hit.depth_m, kSkyDepth) / float(rays());
                 }
             }
             Vec3 sum = seen[pixel] / float(rays());
-            depth_m[x - pass_.area.x0] = depths[pixel];
+            if (pass_.depth_is_mean) depth_m[x - pass_.area.x0] = mean_depths_m[pixel];
             const std::size_t before = samples.size();
             for (const LampImage* lamp : lamps_)
                 if (lamp->touches({x, y_, x + 1, y_ + 1})) sum += collect_lamp(*lamp, x);
