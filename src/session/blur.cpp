@@ -13,6 +13,7 @@
 #include "session/prepared.h"
 #include "session/rendered/depth_edges.h"
 #include "session/rendered/distort.h"
+#include "session/rendered/empty_pixels.h"
 #include "session/rendered/on_grid.h"
 #include "session/windows.h"
 #include "views/plan_view.h"
@@ -245,9 +246,11 @@ Result<Blurred> Session::Contents::blur(const FrameRequest& request, const std::
     const NotingDevice drawing(**opened);
     const auto radii = Radii::make(request);
     if (!radii) return radii.error();
-    const HardDepth edges = hard_depth(request.rendered, request.look.depth_edges, *request.workers);
+    const EmptyFar far = empty_far(request.rendered, *request.workers);
+    const Rendered occluded = far.of(request.rendered);
+    const HardDepth edges = hard_depth(occluded, request.look.depth_edges, *request.workers);
     FrameRequest on_grid = request;
-    on_grid.rendered = edges.of(request.rendered);
+    on_grid.rendered = edges.of(occluded);
     auto lens = lens_for(on_grid);
     if (!lens) return lens.error();
     const Rect data = request.rendered.place.data_window;

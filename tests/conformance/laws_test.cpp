@@ -243,6 +243,20 @@ TEST_P(Law, EmptinessStaysEmptyAndCoverageIsBlurredAsColourIs) {
     }
 }
 
+// A matte may leave the depth of a removed object, in front of the objects that remain.
+TEST_P(Law, TheDepthOfEmptyPixelsChangesNothing) {
+    for (const float coc : {-5.0f, 6.0f}) {
+        Shot shot = flat(64, 64, {}, coc);
+        for (int y = 20; y < 44; ++y)
+            for (int x = 20; x < 44; ++x) shot.colour(x, y) = {0.6f, 0.3f, 0.9f, 1};
+        const Picture wanted = picture(shot);
+        for (int y = 0; y < 64; ++y)
+            for (int x = 0; x < 64; ++x)
+                if (shot.colour(x, y).a == 0) shot.coc_px(x, y) = -15;
+        EXPECT_EQ(largest_difference(picture(shot), wanted), 0) << coc;
+    }
+}
+
 // Laws of the estimated hidden background.
 class Guess : public EveryDrawer {};
 

@@ -1,0 +1,23 @@
+// The depth of pixels with neither light nor coverage: renderers and mattes leave any number there.
+#pragma once
+
+#include "petzval/rendered.h"
+#include "petzval/workers.h"
+
+namespace petzval {
+
+// Depth, or radii, in which empty pixels lie behind everything, so that no engine takes them for occluders.
+// plane is empty where the given one stays as it is.
+struct EmptyFar {
+    Plane plane;
+
+    // The same frame with this depth, while `plane` lasts.
+    Rendered of(Rendered rendered) const;
+};
+
+// Metres become infinite. Radii become the farthest radius of a pixel that is not empty, because the radius
+// at infinity is unknown. Deep pictures are left as they are; so is a picture without alpha above 0, whose
+// black pixels are surfaces.
+EmptyFar empty_far(const Rendered& rendered, Workers& workers);
+
+}  // namespace petzval
