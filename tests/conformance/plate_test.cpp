@@ -145,10 +145,12 @@ TEST(Plate, StandsBehindAnElementWithAlpha) {
             return Rgba{0.4f, 0.4f, 0.4f, 1};
         },
         [](int, int) { return 5.0f; });
-    const Picture image = rendered(shot.job("scatter"));
-    EXPECT_NEAR(image(45, 40).g, 0.45, 0.01);
-    EXPECT_NEAR(image(45, 40).a, 1, 0.01);
-    EXPECT_NEAR(image(90, 40).g, 0.4, 0.01);
+    for (const char* engine : {"scatter", "gather", "reference"}) {
+        const Picture image = rendered(shot.job(engine));
+        EXPECT_NEAR(image(45, 40).g, 0.45, 0.01) << engine;
+        EXPECT_NEAR(image(45, 40).a, 1, 0.01) << engine;
+        EXPECT_NEAR(image(90, 40).g, 0.4, 0.01) << engine;
+    }
 }
 
 // A card with antialiased sides, out of focus, before a wall with two lamps. The wall's depth is that of the

@@ -128,7 +128,9 @@ CocSamples all_samples(const StatedPicture& p, Workers& workers) {
             std::stable_sort(all.samples.begin() + std::ptrdiff_t(all.first.back()), all.samples.end(),
                              [](const CocSample& a, const CocSample& b) { return a.coc_px < b.coc_px; });
             hide_what_is_covered(all.samples, all.first.back());
-            if (complete) match_what_shows(all.samples, all.first.back(), colour(x, y));
+            // Through an empty pixel of an element, the plate is seen as it is.
+            const bool is_empty = colour(x, y) == Rgba{};
+            if (complete && !is_empty) match_what_shows(all.samples, all.first.back(), colour(x, y));
         }
     all.first.push_back(all.samples.size());
     return all;
