@@ -169,6 +169,7 @@ Status take_exr(const std::shared_ptr<const InputFile>& file, const ReadOptions&
     const int right = display.x0 - exr->display.x0, down = display.y0 - exr->display.y0;
     const Rect window = exr->window.moved(right, down);
     const Rect covered = other_size.empty() ? place.data_window : exr->display.moved(right, down);
+    note_missing_depth(window, covered, into.detected);
     if (window != covered) exr->depth = pasted(exr->depth, window, covered);
     into.depth = other_size.empty() ? std::move(exr->depth)
                                     : depth_over(display, exr->depth, false, place.data_window);

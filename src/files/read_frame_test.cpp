@@ -105,6 +105,7 @@ TEST(ReadFrame, DepthOfAnotherPartIsPastedAndMissesWhereItCoversNothing) {
     EXPECT_EQ(frame->depth(1, 0), std::numeric_limits<float>::infinity());
     EXPECT_EQ(frame->depth(4, 3), std::numeric_limits<float>::infinity());
     EXPECT_THAT(frame->detected, Contains(HasSubstr("'depth_left'")));
+    EXPECT_THAT(frame->detected, Contains(HasSubstr("depth: covers 10 x 4 pixels at 2,-1; the rest")));
 }
 
 TEST(ReadFrame, AWorldPositionAndTheCameraMatrixMakeDepthWhereThereIsNone) {

@@ -190,4 +190,11 @@ Plane pasted(const Plane& plane, const Rect& from, const Rect& to) {
     return out;
 }
 
+void note_missing_depth(const Rect& window, const Rect& picture, std::vector<std::string>& detected) {
+    if (window.intersected(picture) == picture) return;
+    detected.push_back("depth: covers " + std::to_string(window.width()) + " x " +
+                       std::to_string(window.height()) + " pixels at " + std::to_string(window.x0) + "," +
+                       std::to_string(window.y0) + "; the rest of the picture is infinitely far");
+}
+
 }  // namespace petzval

@@ -45,5 +45,7 @@ bool has_camera_matrix(const ExrFile& exr);
 
 // `plane` covers `from`; returns what of it lies in `to`, +infinity (a miss) where it covers nothing.
 Plane pasted(const Plane& plane, const Rect& from, const Rect& to);
+// Adds a line if depth over `window` misses a part of the picture.
+void note_missing_depth(const Rect& window, const Rect& picture, std::vector<std::string>& detected);
 
 }  // namespace petzval

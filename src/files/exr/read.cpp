@@ -209,6 +209,7 @@ Status read_pixels(const ExrFile& exr, const Choices& choices, const ReadOptions
         Result<Plane> depth = read_depth(exr, *choices.depth);
         if (!depth) return depth.error();
         const Rect window = exr.layout.parts[choices.depth->part].data_window;
+        note_missing_depth(window, frame.place.data_window, frame.detected);
         frame.depth = window == frame.place.data_window ? std::move(*depth)
                                                         : pasted(*depth, window, frame.place.data_window);
     }
