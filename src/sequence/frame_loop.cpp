@@ -12,8 +12,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -61,6 +63,21 @@ bool contains(const std::vector<int>& frames, int frame) {
 bool may_pass(ErrorCode code) {
     return code != ErrorCode::InvalidArgument && code != ErrorCode::InvalidFile &&
            code != ErrorCode::Unsupported && code != ErrorCode::Cancelled;
+}
+
+// Numbers left out of an otherwise even sequence. Empty if more are left out than there are: then the frames
+// are a choice.
+std::vector<int> gaps(const std::vector<int>& ascending) {
+    std::int64_t step = std::numeric_limits<int>::max();
+    for (std::size_t i = 1; i < ascending.size(); ++i)
+        step = std::min(step, std::int64_t(ascending[i]) - ascending[i - 1]);
+    std::vector<int> left_out;
+    for (std::size_t i = 1; i < ascending.size(); ++i)
+        for (std::int64_t frame = ascending[i - 1] + step; frame < ascending[i]; frame += step) {
+            left_out.push_back(int(frame));
+            if (left_out.size() > ascending.size()) return {};
+        }
+    return left_out;
 }
 
 }  // namespace
@@ -120,6 +137,9 @@ Status FrameLoop::State::find_frames() {
     frames = std::move(*there);
     if (frames.empty()) return Error{ErrorCode::InvalidFile, work.input + ": no frame exists"};
     say(Say::Note, "no run.frames given: all existing frames");
+    if (const std::vector<int> left_out = gaps(frames); !left_out.empty())
+        say(Say::Warning,
+            work.input + ": between existing frames, these are missing: " + frames_text(left_out));
     return Done{};
 }
 

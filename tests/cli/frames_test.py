@@ -69,6 +69,12 @@ class Shots(CommandLineTest):
         channels, _ = read_exr(self.path("out.0004.exr"))
         self.assertEqual(max(max(row) for row in channels["R"]), 0)
 
+    def test_a_gap_among_existing_frames_is_named(self):
+        missing = "in.####.exr: between existing frames, these are missing: 4"
+        self.assertIn(missing, str(self.defocus().lines))
+        os.remove(self.path("in.0002.exr"))
+        self.assertNotIn("missing", str(self.defocus().lines), "every second frame exists")
+
     def test_one_failing_frame_does_not_stop_the_rest(self):
         with open(self.path("in.0002.exr"), "wb") as file:
             file.write(b"junk")
