@@ -55,11 +55,22 @@ std::vector<Row> rows_of(const std::vector<Line>& lines) {
     return rows;
 }
 
-// Numbers of surfaces in front, 1, 2, 3, …, are taken away.
+// Numbers of surfaces in front, 1, 2, 3, …, are taken away. A row of the stop may have none, whether the
+// numbers count it or not.
 void drop_numbers(std::vector<Row>& rows) {
+    std::vector<bool> is_numbered;
+    double next = 1;
+    bool may_skip = false;
+    for (const Row& row : rows) {
+        const auto number = row.words.size() < 2 ? std::nullopt : parse_number(row.words[0]);
+        const bool is_next = number && (*number == next || (may_skip && *number == next + 1));
+        if (!is_next && !row.is_stop) return;
+        if (is_next) next = *number + 1;
+        may_skip = !is_next;
+        is_numbered.push_back(is_next);
+    }
     for (std::size_t i = 0; i < rows.size(); ++i)
-        if (rows[i].words.size() < 2 || parse_number(rows[i].words[0]) != double(i + 1)) return;
-    for (Row& row : rows) row.words.erase(row.words.begin());
+        if (is_numbered[i]) rows[i].words.erase(rows[i].words.begin());
 }
 
 // The number behind the first of these marks in the heading, as "f = 50" or "F/2"; 0 if there is none.
@@ -105,7 +116,10 @@ public:
             surface.clear_radius_mm = *diameter / 2;
             ++at;
         }
-        if (at < row.words.size()) return at_line(row.line, quoted(row.words[at]) + " was not expected");
+        if (at < row.words.size())
+            return at_line(row.line, quoted(row.words[at]) +
+                                         " was not expected; a row holds radius, thickness, glass or nd "
+                                         "and Vd, and clear diameter");
         if (row.is_stop && has_stop_) return at_line(row.line, "a second stop");
         if (row.is_stop) file_.lens.stop = int(file_.lens.surfaces.size()), has_stop_ = true;
         file_.lens.surfaces.push_back(surface);

@@ -68,6 +68,22 @@ TEST(Table, ColumnsMayBePartedByTabsCommasOrBars) {
     }
 }
 
+TEST(Table, TheRowOfTheStopMayHaveNoNumber) {
+    std::string counted = kTronnier;
+    counted.replace(counted.find("6   stop"), 8, "    stop");
+    std::string not_counted = counted;
+    for (int number = 7; number <= 11; ++number) {
+        const std::string row = "\n" + std::to_string(number) + " ";
+        not_counted.replace(not_counted.find(row), row.size(), "\n" + std::to_string(number - 1) + " ");
+    }
+    for (const std::string& text : {counted, not_counted}) {
+        const LensFile file = read(text);
+        ASSERT_EQ(file.lens.surfaces.size(), 11u) << text;
+        EXPECT_EQ(file.lens.stop, 5);
+        EXPECT_DOUBLE_EQ(focal_length(file), focal_length(read(kTronnier))) << text;
+    }
+}
+
 TEST(Table, AStopThatNoRowMarksIsPutIntoTheWidestGapAndReported) {
     const LensFile file = read("F/3\n50 4 N-BK7\n-50 12\n60 4 N-BK7\n-60 30\n");
     ASSERT_EQ(file.lens.surfaces.size(), 5u);
