@@ -381,6 +381,12 @@ TEST(CurveLens, WiderThanDrawnForStretchesTheCurvesAndSaysSo) {
     EXPECT_NE(lens_named("doublet", 1.4)->description().find("extended"), std::string::npos);
 }
 
+TEST(CurveLens, OfTheIdealLensDoesNotDenyWhatWasAdded) {
+    LensChoice choice = named("ideal");
+    choice.added.spherical_waves = 30;
+    EXPECT_EQ(lens_of(choice)->description(), "ideal: no aberrations except those added");
+}
+
 TEST(Curves, DamagedCurvesAreRefused) {
     AberrationCurves curves = third_order(0.01);
     EXPECT_TRUE(optics::check(curves));

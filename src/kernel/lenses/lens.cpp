@@ -132,9 +132,9 @@ File holding(const optics::AberrationCurves& curves) {
     return std::make_shared<const lens_files::LensFile>(std::move(file));
 }
 
-// The ideal lens with third-order aberrations off the axis: curves without any shift.
+// The ideal lens with added aberrations: curves without any shift.
 File straight_curves() {
-    return holding({"ideal", "no aberration on the axis", 50, 1, 36, {587.56}, {0, 0.5}, {{0, 0}}});
+    return holding({"ideal", "no aberrations except those added", 50, 1, 36, {587.56}, {0, 0.5}, {{0, 0}}});
 }
 
 Result<File> file_of(const std::string& name) {
