@@ -107,7 +107,10 @@ Status check_pictures(const Rendered& rendered) {
     if (!rendered.mask.empty() && (rendered.mask.width() != rendered.colour.width() ||
                                    rendered.mask.height() != rendered.colour.height()))
         return invalid("shot.mask must have the picture's size");
-    return check(rendered.place);
+    if (const Status fine = check(rendered.place); !fine) return fine;
+    if (!rendered.place.fits(rendered.colour.width(), rendered.colour.height()))
+        return invalid("place.data_window must have the picture's size");
+    return Done{};
 }
 
 }  // namespace

@@ -224,6 +224,17 @@ TEST(Take, SaysWhatItCannotTake) {
     EXPECT_NE(taken.error().message.find("brush"), std::string::npos);
 }
 
+TEST(Take, RefusesADataWindowOfAnotherSize) {
+    Rendered r;
+    Session session;
+    for (const int width : {kWidth - 1, kWidth + 1, 100 * kWidth}) {
+        r.job.place.data_window = {0, 0, width, kHeight};
+        const auto taken = session.take(r.job, {});
+        ASSERT_FALSE(taken) << width;
+        EXPECT_NE(taken.error().message.find("data_window"), std::string::npos);
+    }
+}
+
 TEST(Take, ListsChoicesWithoutEffectAndRefusesContradictions) {
     const Rendered r;
     Session session;
