@@ -32,6 +32,9 @@ Status check_pictures(const Look& look);
 // The lens of a look: the one it was given, used as its fields say; else opened by name.
 Result<Lens> lens_of(const petzval_look& look);
 
+// Thrown for a struct without a size: its other members would be ignored without a word.
+struct Unsized {};
+
 // Runs what may throw on behalf of somebody who cannot catch: the one place that catches.
 template <typename Body>
 petzval_status guarded(const Body& body) noexcept {
@@ -39,6 +42,10 @@ petzval_status guarded(const Body& body) noexcept {
         return body();
     } catch (const std::bad_alloc&) {
         return fail(PETZVAL_OUT_OF_MEMORY, "out of memory");
+    } catch (const Unsized&) {
+        return fail(PETZVAL_INVALID_ARGUMENT,
+                    "the member size of a struct is 0; set it to sizeof(the struct), and the members that "
+                    "you do not use to 0");
     } catch (const std::exception& e) {
         return fail(PETZVAL_INTERNAL, std::string("an internal error: ") + e.what());
     } catch (...) {

@@ -11,6 +11,8 @@
 #include "petzval/session.h"
 #include "petzval/workers.h"
 
+#include "c/handles.h"
+
 #include <cstddef>
 #include <cstring>
 #include <memory>
@@ -21,13 +23,14 @@
 namespace petzval::c {
 
 // A struct of a host that may be older or newer than we are: missing members are zero, unknown ones are
-// left. Requires: it begins with its size.
+// left. Throws Unsized for one whose size does not even hold the size.
 template <typename Struct>
 Struct taken(const Struct* given) {
     Struct own{};
     if (!given) return own;
     std::size_t size = 0;
     std::memcpy(&size, given, sizeof size);
+    if (size < sizeof size) throw Unsized{};
     std::memcpy(&own, given, size < sizeof own ? size : sizeof own);
     return own;
 }

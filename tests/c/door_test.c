@@ -458,6 +458,26 @@ static void test_structs_of_older_hosts(void) {
     petzval_session_close(session);
 }
 
+static void test_a_struct_without_a_size_is_refused(petzval_session* own) {
+    static picture in, out;
+    const petzval_pixels picture = pixels_of(&in, 0), into = pixels_of(&out, 0);
+    const petzval_plane plane = radii_plane();
+    const petzval_session_settings settings = {.threads = 2};
+    const petzval_control control = {0};
+    petzval_session* session = NULL;
+    petzval_shot shot = {0};
+    paint(&in, 0);
+    shot.size = sizeof shot;
+    shot.colour = &picture;
+    shot.radii_px = &plane;
+    expect(petzval_session_open(&settings, &session) == PETZVAL_INVALID_ARGUMENT && session == NULL &&
+               strstr(petzval_error_text(), "sizeof") != NULL,
+           "settings without a size are not the defaults");
+    expect(petzval_defocus(own, &shot, NULL, &control, &into, NULL) == PETZVAL_INVALID_ARGUMENT &&
+               strstr(petzval_error_text(), "sizeof") != NULL,
+           "callbacks of a control without a size are not dropped");
+}
+
 static void test_devices(void) {
     petzval_session_settings settings = {0};
     petzval_session* session = NULL;
@@ -508,6 +528,7 @@ int main(void) {
     test_what_lies_behind_and_lights(session);
     test_a_mask_limits_the_effect(session);
     test_all_is_compared_before_anything_is_read(session);
+    test_a_struct_without_a_size_is_refused(session);
     petzval_session_close(session);
     test_structs_of_older_hosts();
     test_numbers_of_threads();
