@@ -134,6 +134,19 @@ TEST(Deep, AnElementWithNothingBehindItFadesOutAtItsEdge) {
     }
 }
 
+TEST(Deep, SamplesWithoutCoverageHideNothing) {
+    const auto element = [](bool with_nothing_in_front) {
+        return DeepShot::make(64, 64, [=](int x, int y) {
+            if (x >= 20 && x < 44 && y >= 20 && y < 44) return Samples{surface({0.6f, 0.3f, 0.9f, 1}, 6)};
+            return with_nothing_in_front ? Samples{surface({}, -15)} : Samples{};
+        });
+    };
+    for (const char* engine : {"scatter", "gather", "reference"})
+        EXPECT_EQ(
+            largest_difference(rendered(element(true).job(engine)), rendered(element(false).job(engine))), 0)
+            << engine;
+}
+
 TEST(Deep, AFullSceneWithoutHiddenSamplesGetsNoHolesAtItsSilhouettes) {
     const DeepShot shot = DeepShot::make(120, 80, [&](int x, int y) {
         const bool near = x >= 40 && x < 80 && y >= 20 && y < 60;

@@ -41,7 +41,6 @@ RowContents contents_of(const Rgba* colour, const float* depth, int width, bool 
 }  // namespace
 
 EmptyFar empty_far(const Rendered& rendered, Workers& workers) {
-    if (rendered.deep && !rendered.deep->empty()) return {};
     const View<const Rgba> colour = rendered.colour;
     const View<const float> depth = depth_or_radii(rendered);
     const bool is_radii = has_radii(rendered);

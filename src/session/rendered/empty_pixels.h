@@ -16,8 +16,8 @@ struct EmptyFar {
 };
 
 // Metres become infinite. Radii become the farthest radius of a pixel that is not empty, because the radius
-// at infinity is unknown. Deep pictures are left as they are; so is a picture without alpha above 0, whose
-// black pixels are surfaces.
+// at infinity is unknown. A picture without alpha above 0 is left as it is, because its black pixels are
+// surfaces. Samples of a deep picture are left as they are; engines that use its front view see the depth.
 EmptyFar empty_far(const Rendered& rendered, Workers& workers);
 
 }  // namespace petzval

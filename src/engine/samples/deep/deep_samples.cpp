@@ -82,7 +82,10 @@ CocSamples deep_samples(const DeepPicture& deep, const StatedDepth& meaning, Wor
         std::vector<DeepSample> pixel, tidy;
         for (int x = 0; x < deep.width(); ++x) {
             pixel.clear(), tidy.clear();
-            for (const DeepSample& s : deep.at(x, y)) pixel.push_back(sound(s, in_radii));
+            for (const DeepSample& s : deep.at(x, y)) {
+                const DeepSample own = sound(s, in_radii);
+                if (!(own.colour == Rgba{})) pixel.push_back(own);  // others hide nothing
+            }
             std::stable_sort(pixel.begin(), pixel.end(), nearer);
             tidy_pixel(pixel, cuts, tidy);
             for (const DeepSample& s : tidy) {
