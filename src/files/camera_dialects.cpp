@@ -68,6 +68,12 @@ constexpr Row kRows[] = {
     {"Redshift", "rs/camera/FStop", Quantity::FNumber, as_is},
     {"Redshift", "rs/camera/DOFFocusDistance", Quantity::FocusDistance, as_is, true},
     {"3Delight", "fieldOfViewHorizontal", Quantity::FieldOfView, from_degrees},
+    // Unreal's Movie Render Queue, as text; its page on render passes names these numbers.
+    {"Unreal", "unreal/camera/FinalImage/focalLength", Quantity::FocalLength, as_is},
+    {"Unreal", "unreal/camera/FinalImage/sensorWidth", Quantity::SensorWidth, as_is},
+    {"Unreal", "unreal/camera/FinalImage/fstop", Quantity::FNumber, as_is},
+    {"Unreal", "unreal/camera/FinalImage/focalDistance", Quantity::FocusDistance, as_is, true},
+    {"Unreal", "unreal/camera/FinalImage/fov", Quantity::FieldOfView, from_degrees},
     // Blender writes its lens only where stamping of it is switched on, as text: "18.00".
     {"Blender", "Lens", Quantity::FocalLength, as_is},
 };

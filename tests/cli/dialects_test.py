@@ -2,7 +2,8 @@
 
 No renderer of these but Blender runs here. Sources: 3Delight 2.1.23, a listing by exrheader in github
 johannesvollmer/exrs#90; V-Ray 3 for 3ds Max, throb/vfxpipe#6; Redshift and Arnold, names and use in public scripts
-for Nuke (metadataToCamera and others); Blender, files of its own with stamped metadata.
+for Nuke (metadataToCamera and others); Unreal, the names in Epic's page on the render passes of Movie Render Queue;
+Blender, files of its own with stamped metadata.
 """
 import json
 import math
@@ -57,6 +58,10 @@ FILES = {
                           + number("rs/camera/DOFFocusDistance", 210) + number("rs/camera/nearPlane", 0.1)
                           + number("rs/camera/farPlane", 1e4) + matrix("rs/camera/transform"),
                           ["--unit-scale", "1cm"], 50, 36, 5.6, 2.1),
+    "Unreal": (text("unreal/camera/FinalImage/focalDistance", "320.0") + text("unreal/camera/FinalImage/focalLength", "35.0")
+               + text("unreal/camera/FinalImage/fov", "37.4") + text("unreal/camera/FinalImage/fstop", "2.8")
+               + text("unreal/camera/FinalImage/sensorWidth", "23.76"),
+               ["--unit-scale", "1cm"], 35, 23.76, 2.8, 3.2),
     "Blender": (text("Camera", "Camera") + text("Frame", "001") + text("Lens", "85.00") + text("Scene", "Scene")
                 + text("RenderTime", "00:03.71"), ["--sensor-width", "36", "--fstop", "2", "--focus", "3"], 85, 36, 2, 3),
 }

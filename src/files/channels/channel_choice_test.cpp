@@ -54,6 +54,8 @@ ReadOptions with_depth(const std::string& name) {
 TEST(ChannelChoice, DepthOfUnrealAndOctaneIsFoundAndMistIsNone) {
     EXPECT_EQ(depth_of(layout({part("", {"R", "G", "B", "FinalImageWorldDepth.R"})})),
               "0 FinalImageWorldDepth.R");
+    const std::string movie = "FinalImageMovieRenderQueue_WorldDepth.R";  // in Epic's page on render passes
+    EXPECT_EQ(depth_of(layout({part("", {"R", "G", "B", movie})})), "0 " + movie);
     EXPECT_EQ(depth_of(layout({part("", {"R", "G", "B", "Z-depth.R"})})), "0 Z-depth.R");
     EXPECT_THAT(depth_of(layout({part("", {"R", "G", "B", "ViewLayer.Mist.Z"})})),
                 HasSubstr("not a distance"));

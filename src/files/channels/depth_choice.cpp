@@ -26,7 +26,8 @@ struct Pattern {
     const char* why;
     bool (*matches)(const Candidate& c, bool layer_of_colour);
 };
-constexpr const char* kLookedFor = "Z, depth.Z, ….Depth.Z, VRayZDepth, depth.R";  // for messages
+constexpr const char* kLookedFor =
+    "Z, depth.Z, ….Depth.Z, VRayZDepth, depth.R, …WorldDepth.R";  // for messages
 constexpr Pattern kPatterns[] = {
     {"Z of the colour's own layer", [](const Candidate& c, bool own) { return own && c.base == "z"; }},
     {"plain Z", [](const Candidate& c, bool) { return c.channel->layer.empty() && c.base == "z"; }},
@@ -41,9 +42,10 @@ constexpr Pattern kPatterns[] = {
      [](const Candidate& c, bool) {
          return c.channel->layer.empty() && is_one_of(c.base, {"depth", "zdepth", "z-depth"});
      }},
-    {"a layer named like depth",  // Unreal's FinalImageWorldDepth, Octane's Z-depth
+    {"a layer named like depth",  // Unreal's FinalImageMovieRenderQueue_WorldDepth, Octane's Z-depth
      [](const Candidate& c, bool) {
-         return is_one_of(c.layer, {"finalimageworlddepth", "worlddepth", "z-depth", "zdepth"}) &&
+         const bool is_unreal = c.layer.find("worlddepth") != std::string::npos;
+         return (is_unreal || is_one_of(c.layer, {"z-depth", "zdepth"})) &&
                 is_one_of(c.base, {"r", "y", "v", "x", "red", "z"});
      }},
     {"Z of another layer", [](const Candidate& c, bool) { return c.base == "z"; }},
