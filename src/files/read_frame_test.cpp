@@ -108,6 +108,28 @@ TEST(ReadFrame, DepthOfAnotherPartIsPastedAndMissesWhereItCoversNothing) {
     EXPECT_THAT(frame->detected, Contains(HasSubstr("depth: covers 10 x 4 pixels at 2,-1; the rest")));
 }
 
+TEST(ReadFrame, AnAlphaOfZeroBehindLightIsNoCoverageAndStays) {
+    const TemporaryFolder folder;
+    const auto half = [](const char* name, int value) {
+        return test::QuickChannel{name, Imf::HALF, [=](int, int) { return double(value); }};
+    };
+    QuickPart part{"", "", kWindow, {half("R", 2), half("G", 2), half("B", 2), half("A", 0), half("Z", 3)}};
+    write_quick_exr(folder / "a.exr", kWindow, {part});
+    Result<Frame> frame = read_frame(folder / "a.exr");
+    ASSERT_TRUE(frame) << frame.error().message;
+    EXPECT_EQ(frame->colour(3, 2).a, 1);
+    EXPECT_FALSE(frame->has_alpha);
+    EXPECT_THAT(frame->warnings, Contains(HasSubstr("alpha A is 0 in every pixel")));
+    for (const bool grows : {false, true}) {
+        frame->has_alpha = grows;  // as a border with nothing in it makes it
+        ASSERT_TRUE(write_exr(folder / "b.exr", *frame));
+        const Result<Frame> written = read_frame(folder / "b.exr");
+        ASSERT_TRUE(written) << written.error().message;
+        EXPECT_EQ(written->has_alpha, grows);
+        EXPECT_EQ(written->colour(3, 2).r, 2);
+    }
+}
+
 TEST(ReadFrame, AWorldPositionAndTheCameraMatrixMakeDepthWhereThereIsNone) {
     const TemporaryFolder folder;
     // The camera stands at (1, 2, 3) and looks along +x of the world.

@@ -248,6 +248,25 @@ std::size_t replace_non_finite(Picture& colour, Workers& workers) {
     return sum;
 }
 
+// Game engines and painting programs leave an alpha of 0 behind pictures that are opaque. As coverage it
+// would make all of the picture glow that hides nothing. It stays in the file.
+void take_empty_alpha_as_none(ColourChoice& colour, Frame& frame) {
+    constexpr float kNothing = 1.0f / 512;  // half a code of 8 bits: noise of compression
+    bool has_light = false;
+    for (std::size_t i = 0; i < frame.colour.size(); ++i) {
+        const Rgba c = frame.colour.pixels()[i];
+        if (c.a > 0) return;
+        has_light = has_light || std::max({c.r, c.g, c.b}) > kNothing;
+    }
+    if (!has_light || !frame.has_alpha) return;
+    for (std::size_t i = 0; i < frame.colour.size(); ++i) frame.colour.pixels()[i].a = 1;
+    frame.has_alpha = false;
+    frame.warnings.push_back("its alpha " + printable(colour.alpha) +
+                             " is 0 in every pixel, but there is light: the picture is taken as opaque, and "
+                             "the channel is kept as it is");
+    colour.alpha.clear();
+}
+
 }  // namespace
 
 Result<Frame> read_exr_frame(const std::shared_ptr<const InputFile>& file, const ReadOptions& options,
@@ -300,6 +319,7 @@ Result<Frame> read_exr_frame(const std::shared_ptr<const InputFile>& file, const
     } else {
         if (Status s = read_pixels(exr, choices, options, frame); !s) return s.error();
         frame.non_finite_colour = replace_non_finite(frame.colour, *options.workers);
+        take_empty_alpha_as_none(*colour, frame);
         if (Status s = read_layers(exr, choices.layers, frame); !s) return s.error();
         if (primaries) convert(frame, choices.layers, primaries->to_rec709, *options.workers);
     }

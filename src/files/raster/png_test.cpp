@@ -144,6 +144,18 @@ TEST(Png, AFrameIsDecodedThroughTheSrgbCurveAndPremultiplied) {
     EXPECT_FLOAT_EQ(c.g, 0.2f * float(srgb_decode(128.0 / 255)));
 }
 
+TEST(Png, AnAlphaOfZeroEverywhereIsWarnedOf) {
+    const TemporaryFolder folder;
+    for (const std::uint16_t alpha : {std::uint16_t(0), std::uint16_t(1)}) {
+        ASSERT_TRUE(write_png(folder / "a.png", PngPixels{1, 1, 4, 8, {90, 80, 70, alpha}}));
+        ReadOptions options;
+        options.need_depth = false;
+        const Result<Frame> frame = read_frame(folder / "a.png", options);
+        ASSERT_TRUE(frame) << frame.error().message;
+        EXPECT_EQ(frame->warnings.size(), alpha == 0 ? 1u : 0u);
+    }
+}
+
 TEST(Png, DepthIsAShareOfFullScaleWithoutAnyCurve) {
     const TemporaryFolder folder;
     ASSERT_TRUE(write_png(folder / "colour.png", ramp(2, 1, 3, 8)));

@@ -142,6 +142,10 @@ Result<Frame> read_raster_frame(const std::shared_ptr<const InputFile>& file, co
     if (!pixels) return frame;
     frame.colour = raster->is_float() ? light_of_floats(*raster, frame.non_finite_colour)
                                       : light_of_codes(*raster, options.transfer);
+    const auto is_clear = [](const Rgba& c) { return c.a == 0; };
+    if (frame.has_alpha &&
+        std::all_of(frame.colour.pixels(), frame.colour.pixels() + frame.colour.size(), is_clear))
+        frame.warnings.emplace_back("its alpha is 0 in every pixel, as if the picture were empty");
     if (!options.depth_file.empty())
         if (Status s = take_depth_file(options, frame); !s) return s.error();
     return frame;
