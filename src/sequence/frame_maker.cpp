@@ -6,6 +6,8 @@
 #include "petzval/reports/words.h"
 #include "petzval/version.h"
 
+#include "sequence/frame_sizes.h"
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -131,6 +133,7 @@ Status FrameMaker::read() {
     record_["seconds"]["read"] = watch.seconds();
     record_["detected"] = shot_.detected;
     say_layers();
+    record_["display_window"] = place_and_size(shot_.place.display_window);
     record_["non_finite"] = {{"colour", shot_.non_finite_colour}, {"depth", shot_.depth_report.non_finite}};
     const DepthKind kind =
         settings_.source.depth_kind_given ? settings_.source.depth.kind : DepthKind::Planar;

@@ -6,6 +6,7 @@
 #include "petzval/track.h"
 
 #include "records/record_json.h"
+#include "sequence/frame_sizes.h"
 
 #include <utility>
 #include <vector>
@@ -14,12 +15,9 @@ namespace petzval {
 namespace {
 
 using records::Json;
+using sequence::place_and_size;
 
 Json corners(const Rect& r) { return {r.x0, r.y0, r.x1, r.y1}; }
-
-Json place_and_size(const Rect& r) {
-    return {{"x", r.x0}, {"y", r.y0}, {"width", r.width()}, {"height", r.height()}};
-}
 
 // `window` writes the data window.
 Json parts_json(const std::vector<PartSummary>& parts, Json (*window)(const Rect&)) {

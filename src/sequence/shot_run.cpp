@@ -6,6 +6,7 @@
 
 #include "sequence/focus/focus_jumps.h"
 #include "sequence/frame_maker.h"
+#include "sequence/frame_sizes.h"
 #include "sequence/read_ahead.h"
 #include "sequence/shot_neighbours.h"
 
@@ -73,6 +74,7 @@ struct ShotRun::State {
     std::optional<Track> track = {};
     std::shared_ptr<sequence::ShotNeighbours> around = {};
     sequence::FocusJumps jumps = {};
+    sequence::FrameSizes sizes = {};
     std::unique_ptr<FrameLoop> loop = {};
     sequence::ReadAhead ahead = {};
     bool is_ready = false, is_begun = false;
@@ -139,6 +141,7 @@ Result<FrameRecord> ShotRun::State::make(int frame, bool again) {
     auto record = sequence::make_frame(session, *of, host, context);
     if (!record) return record.error();
     jumps.look_at(frame, context.tracked && context.tracked->is_between_keys, *record);
+    sizes.look_at(frame, *record);
     return frame_record(records::as_text(*record));
 }
 

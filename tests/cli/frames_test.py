@@ -75,6 +75,12 @@ class Shots(CommandLineTest):
         os.remove(self.path("in.0002.exr"))
         self.assertNotIn("missing", str(self.defocus().lines), "every second frame exists")
 
+    def test_frames_of_another_size_are_named(self):
+        write_exr(self.path("in.0003.exr"), picture(20, 14, lambda x, y: 0.5, lambda x, y: 2))
+        self.assertIn("frame 3 has 20 x 14 pixels, unlike frame 2 with 40 x 28 pixels", str(self.defocus().lines))
+        os.remove(self.path("in.0003.exr"))
+        self.assertNotIn("unlike", str(self.defocus().lines))
+
     def test_one_failing_frame_does_not_stop_the_rest(self):
         with open(self.path("in.0002.exr"), "wb") as file:
             file.write(b"junk")
