@@ -67,7 +67,7 @@ typedef struct petzval_disc {
 typedef struct petzval_disc_report {
     size_t size;
     int needed_px;     /* side of the smallest square that holds the whole disc; odd */
-    double lost_share; /* fraction of the light outside a picture that is smaller than this */
+    double lost_share; /* fraction of the green light outside a picture that is smaller than this */
 } petzval_disc_report;
 
 /* Finds the side of a square that certainly contains the disc, at least its needed_px, without making the
