@@ -267,7 +267,8 @@ Result<Blurred> Session::Contents::blur(const FrameRequest& request, const std::
     const Blur blur{on_grid,  asked, region.has_value(), **engine, *radii, **lens,
                     surfaces, clock, progress,           beside};
     auto made = blurred_by_either(drawing, settings.device, blur, spare);
-    if (made && !edges.what_was_done.empty()) made->report.warnings.push_back(edges.what_was_done);
+    for (const std::string& warning : {far.warning, edges.what_was_done})
+        if (made && !warning.empty()) made->report.warnings.push_back(warning);
     trim(most_kept_bytes());
     return made;
 }

@@ -23,17 +23,19 @@ bool is_stated(float depth, bool is_radii) { return is_radii || depth > 0; }
 struct RowContents {
     float farthest = -kInfinity;      // value of a pixel that is not empty
     float nearest_empty = kInfinity;  // value of an empty pixel
-    bool has_alpha = false;
+    bool has_alpha = false, has_light = false;
 };
 
 RowContents contents_of(const Rgba* colour, const float* depth, int width, bool is_radii) {
     RowContents found;
     for (int x = 0; x < width; ++x) {
         found.has_alpha = found.has_alpha || colour[x].a > 0;
-        if (!is_empty(colour[x]))
+        if (!is_empty(colour[x])) {
             found.farthest = std::max(found.farthest, depth[x]);
-        else if (is_stated(depth[x], is_radii))
+            found.has_light = true;
+        } else if (is_stated(depth[x], is_radii)) {
             found.nearest_empty = std::min(found.nearest_empty, depth[x]);
+        }
     }
     return found;
 }
@@ -53,10 +55,13 @@ EmptyFar empty_far(const Rendered& rendered, Workers& workers) {
         all.farthest = std::max(all.farthest, row.farthest);
         all.nearest_empty = std::min(all.nearest_empty, row.nearest_empty);
         all.has_alpha = all.has_alpha || row.has_alpha;
+        all.has_light = all.has_light || row.has_light;
     }
+    if (!all.has_alpha && all.has_light)
+        return {{}, "shot.colour has an alpha of 0 in every pixel: its light is a glow that hides nothing"};
     const float behind = is_radii ? all.farthest : kInfinity;
     if (!all.has_alpha || !(all.nearest_empty < behind)) return {};
-    EmptyFar far{Plane::uninitialised(depth.width(), depth.height())};
+    EmptyFar far{Plane::uninitialised(depth.width(), depth.height()), {}};
     parallel_for(depth.height(), workers, [&](int y) {
         for (int x = 0; x < depth.width(); ++x) {
             const float given = depth(x, y);

@@ -4,12 +4,15 @@
 #include "petzval/rendered.h"
 #include "petzval/workers.h"
 
+#include <string>
+
 namespace petzval {
 
 // Depth, or radii, in which empty pixels lie behind everything, so that no engine takes them for occluders.
 // plane is empty where the given one stays as it is.
 struct EmptyFar {
     Plane plane;
+    std::string warning;  // about a picture that is light without any alpha; else empty
 
     // The same frame with this depth, while `plane` lasts.
     Rendered of(Rendered rendered) const;

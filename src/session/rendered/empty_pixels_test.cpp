@@ -65,7 +65,9 @@ TEST(EmptyPixels, AreSurfacesWhereAPictureHasNoAlpha) {
     const Plane depth(2, 1, 3.0f);
     Rendered rendered;
     rendered.colour = colour, rendered.depth = PlanarDepth{depth};
-    EXPECT_TRUE(empty_far(rendered, one_thread()).plane.empty());
+    const EmptyFar far = empty_far(rendered, one_thread());
+    EXPECT_TRUE(far.plane.empty());
+    EXPECT_NE(far.warning.find("alpha of 0"), std::string::npos);
 }
 
 }  // namespace
