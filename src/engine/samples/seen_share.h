@@ -37,7 +37,7 @@ inline bool is_beside(std::span<const CocSample> samples) {
     const CocSample& own = samples.back();
     float room = 1;
     for (const CocSample& s : samples.first(samples.size() - 1))
-        if (s.coc_px < own.coc_px) room -= s.colour.a;
+        if (laws::is_in_front(s.coc_px, own.coc_px, laws::kOwnSurfacePx)) room -= s.colour.a;
     return room > kLeast && own.colour.a <= room + kLeast;
 }
 
