@@ -58,7 +58,7 @@ EmptyFar empty_far(const Rendered& rendered, Workers& workers) {
         all.has_light = all.has_light || row.has_light;
     }
     if (!all.has_alpha && all.has_light)
-        return {{}, "shot.colour has an alpha of 0 in every pixel: its light is a glow that hides nothing"};
+        return {{}, "the picture has an alpha of 0 in every pixel: its light is a glow that hides nothing"};
     const float behind = is_radii ? all.farthest : kInfinity;
     if (!all.has_alpha || !(all.nearest_empty < behind)) return {};
     EmptyFar far{Plane::uninitialised(depth.width(), depth.height()), {}};
