@@ -171,7 +171,8 @@ struct FillRule {
 // Continues surfaces behind each occluder, from its silhouettes inwards, as far as any ray of the lens
 // reaches behind it. A surface continues only if it is farther than the occluder. If the surfaces in opposite
 // directions agree, their colours are interpolated, so edges continue behind thin objects; otherwise the
-// nearest surface continues. Weights are distance^-1.5. They fall faster than those of the mean-value
+// nearest surface continues. Witnesses count more along the structure of their surface than across it
+// (behind/structure.h). Weights are distance^-1.5. They fall faster than those of the mean-value
 // interpolant, 1/distance (M. Floater, "Mean value coordinates", 2003), and come closer to the truth on the
 // path-traced fence.
 HiddenLayers fill_hidden(const LitPicture& picture, View<const float> coc_px,

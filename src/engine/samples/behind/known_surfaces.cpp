@@ -35,7 +35,6 @@ KnownSurfaces::KnownSurfaces(const LitPicture& picture, View<const float> coc, c
       white_(white),
       edges_(picture, radii_, mixtures, white, edges_to_px, workers) {
     if (!picture.patches.empty()) add_patches(workers);
-    if (white_ > 0) find_lights(workers);
 }
 
 void KnownSurfaces::add_patches(Workers& workers) {
@@ -45,50 +44,13 @@ void KnownSurfaces::add_patches(Workers& workers) {
     });
 }
 
-void KnownSurfaces::find_lights(Workers& workers) {
-    const int width = (radii_.width() + kBlock - 1) / kBlock,
-              height = (radii_.height() + kBlock - 1) / kBlock;
-    Image<unsigned char> lit(width, height);
-    parallel_for(height, workers, [&](int row) {
-        for (int y = row * kBlock; y < std::min((row + 1) * kBlock, radii_.height()); ++y)
-            for (int x = 0; x < radii_.width(); ++x)
-                if (luminance(picture_.colour(x, y)) >= completion_model.light * white_ &&
-                    luminance(picture_.dim(x, y)) >= completion_model.light * white_)
-                    lit(x / kBlock, row) = 1;
-    });
-    const int blocks = int(completion_model.lit_widest_px) / kBlock + 1;
-    lights_around_ = Image<unsigned char>(width, height);
-    parallel_for(height, workers, [&](int y) {
-        for (int v = std::max(0, y - blocks); v <= std::min(height - 1, y + blocks); ++v)
-            for (int x = 0; x < width; ++x)
-                for (int u = std::max(0, x - blocks); u <= std::min(width - 1, x + blocks); ++u)
-                    lights_around_(x, y) |= lit(u, v);
-    });
-}
-
 Rgba KnownSurfaces::going_on(Place from, Direction outwards, float distance_px,
                              const CutEdges::Around& edges) const {
     const Rgba own = seen_through_blur(from, outwards, edges);
     if (white_ <= 0) return own;
     const float light = std::max(light_of(own), light_of(colour(from.x, from.y)));
     const float falls = above(light, completion_model.light * white_);
-    const Rgba dim = falls < 1 ? among_lights(own, from, outwards, distance_px, edges) : own;
-    if (falls <= 0) return dim;
-    constexpr float kAnyLight = std::numeric_limits<float>::infinity();
-    return dim * (1 - falls) + falls * shown(from, outwards, distance_px, kAnyLight, own, edges);
-}
-
-// A dark pixel only a little darker than the sign around it is the gap between two letters: it does not end
-// the sign, and which of the two was last at the edge does not change the result. A pixel far darker is the
-// wall beside a lit window.
-Rgba KnownSurfaces::among_lights(Rgba own, Place from, Direction outwards, float distance_px,
-                                 const CutEdges::Around& edges) const {
-    const float least = completion_model.gap_lit * white_;
-    const float usual = completion_model.gap_contrast * light_of(own);
-    if (usual <= least || !lights_around(from)) return own;  // too dark to lie between letters
-    const Rgba all = shown(from, outwards, distance_px, usual, own, edges);
-    const float lit = above(light_of(all), least);
-    return own * (1 - lit) + lit * all;
+    return falls > 0 ? own * (1 - falls) + falls * shown(from, outwards, distance_px, own, edges) : own;
 }
 
 // The blur hides detail: the mean over a part of that blur, across and farther outwards.
@@ -112,7 +74,7 @@ Rgba KnownSurfaces::seen_through_blur(Place at, Direction outwards, const CutEdg
 // The mean of the visible surface at r distances, with density 1/(1 + r)^2: a thing visible for a width w
 // gets the share w/(w + distance). This assumes that things of all widths are equally common and cut
 // anywhere. Pixels beyond a continuing edge do not count.
-Rgba KnownSurfaces::shown(Place from, Direction outwards, float distance_px, float usual, Rgba otherwise,
+Rgba KnownSurfaces::shown(Place from, Direction outwards, float distance_px, Rgba otherwise,
                           const CutEdges::Around& edges) const {
     constexpr int kParts = 8;  // parts of equal probability
     Rgba sum;
@@ -124,8 +86,7 @@ Rgba KnownSurfaces::shown(Place from, Direction outwards, float distance_px, flo
         if (far > completion_model.lit_widest_px || !radii_.rect().contains(x, y)) break;
         if (!one_surface(radii_(x, y), from.coc_px)) continue;
         const Rgba light = comparable(colour(x, y));
-        const float excess = light_of(light) / usual, excess2 = excess * excess;
-        const float weight = edges.passes({x, y}, from.coc_px) / (1 + excess2 * excess2);
+        const float weight = edges.passes({x, y}, from.coc_px);
         sum += weight * light;
         total += weight;
     }

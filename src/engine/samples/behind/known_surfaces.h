@@ -83,19 +83,12 @@ public:
 
 private:
     void add_patches(Workers& workers);
-    void find_lights(Workers& workers);
-    bool lights_around(Place at) const { return lights_around_(at.x / kBlock, at.y / kBlock) != 0; }
     Rgba seen_through_blur(Place at, Direction outwards, const CutEdges::Around& edges) const;
-    Rgba among_lights(Rgba own, Place from, Direction outwards, float distance_px,
-                      const CutEdges::Around& edges) const;
-    // Pixels brighter than `usual` get a small weight.
-    Rgba shown(Place from, Direction outwards, float distance_px, float usual, Rgba otherwise,
+    Rgba shown(Place from, Direction outwards, float distance_px, Rgba otherwise,
                const CutEdges::Around& edges) const;
 
     const LitPicture& picture_;
     const Mixtures& mixtures_;
-    static constexpr int kBlock = 16;     // side of a block in pixels
-    Image<unsigned char> lights_around_;  // per block: true if lights nearby may continue with its surface
     Plane radii_;
     float white_;
     CutEdges edges_;

@@ -14,12 +14,10 @@ constexpr Direction kOutwards{-1, 0};
 
 // Light that continues from the last column before the edge, distance_px behind it, with columns_of_sign
 // visible columns of sign.
-float light_behind(int columns_of_sign, float distance_px, float white = 1, int dark_columns = 0,
-                   float wall = kWall) {
-    Picture colour(kWidth, kHeight, {wall, wall, wall, 1});
+float light_behind(int columns_of_sign, float distance_px, float white = 1) {
+    Picture colour(kWidth, kHeight, {kWall, kWall, kWall, 1});
     for (int y = 0; y < kHeight; ++y)
-        for (int x = kEdge - columns_of_sign; x < kEdge - dark_columns; ++x)
-            colour(x, y) = {kSign, 0.5f * kSign, kSign, 1};
+        for (int x = kEdge - columns_of_sign; x < kEdge; ++x) colour(x, y) = {kSign, 0.5f * kSign, kSign, 1};
     const Plane coc(kWidth, kHeight, 5);
     const Mixtures none;
     const LitPicture picture{colour, {}};
@@ -60,31 +58,6 @@ TEST(KnownSurfaces, ASignGoesOnByAsMuchOfItAsShows) {
             EXPECT_NEAR((light_behind(shows, distance) - kWall) / (kWhole - kWall), share, 0.15f)
                 << shows << " columns, " << distance << " px behind";
         }
-}
-
-TEST(KnownSurfaces, ADarkColumnAtItsEndIsNotAllThatASignTells) {
-    const float alone = light_behind(30, 6), dark = light_behind(30, 6, 1, 1);
-    EXPECT_GT(dark, 3 * kWall);
-    EXPECT_LT(dark, alone);
-    EXPECT_NEAR(light_behind(30, 6, 1, 2, 0.02f), 0.02f, 0.005f) << "there it ends";
-}
-
-TEST(KnownSurfaces, LettersAndGapsThatComeToTheEdgeInTurnDoNotSwitchTheSign) {
-    // Letters of 4 columns, gaps of 3 that are as dark as a quarter of them.
-    const auto behind = [](int hidden_columns) {
-        Picture colour(kWidth, kHeight, {0, 0, 0, 1});
-        for (int y = 0; y < kHeight; ++y)
-            for (int x = 0; x < kEdge; ++x) {
-                const float light = (x + hidden_columns) % 7 < 4 ? 0.8f : 0.2f;
-                colour(x, y) = {light, light, light, 1};
-            }
-        const Plane coc(kWidth, kHeight, 5);
-        const Mixtures none;
-        const LitPicture picture{colour, {}};
-        const KnownSurfaces known(picture, coc, none, 1, one_thread());
-        return luminance(known.going_on({kEdge - 1, kHeight / 2, 5}, kOutwards, 8, known.edges_around(0, 0)));
-    };
-    for (int hidden = 0; hidden < 7; ++hidden) EXPECT_NEAR(behind(hidden), 0.54f, 0.15f) << hidden;
 }
 
 TEST(KnownSurfaces, ASignFadesAsItSlipsBehindTheEdge) {

@@ -47,6 +47,7 @@ SurfacesBehind::SurfacesBehind(const LitPicture& picture, View<const float> coc_
                                float nearest_px, float farthest_px, const FillRule& rule, float white,
                                Workers& workers)
     : known_(picture, coc_px, mixtures, white, workers, rule.edges_to_px),
+      structure_(known_, mixtures, workers),
       outlines_(coc_px, workers),
       textures_(known_, mixtures, rule.textures ? std::max(-nearest_px, farthest_px) : 0, workers),
       coc_(coc_px),
@@ -54,7 +55,7 @@ SurfacesBehind::SurfacesBehind(const LitPicture& picture, View<const float> coc_
       mixtures_(mixtures),
       near_silhouettes_(coc_px, mixtures, workers),
       search_(known_, coc_px, mixtures, nearest_px, farthest_px, workers),
-      witnesses_(known_, textures_, search_),
+      witnesses_(known_, structure_, textures_, search_),
       every_(std::size_t(kDirections / rule.directions)),
       every_first_(std::size_t(kDirections / rule.first_directions)) {}
 

@@ -25,6 +25,7 @@ private:
     void stack(const HiddenPixel& here, Hits& hits, std::vector<HiddenGuess>& hidden) const;
 
     KnownSurfaces known_;
+    SurfaceStructure structure_;
     HiddenOutlines outlines_;
     HiddenTextures textures_;
     View<const float> coc_;

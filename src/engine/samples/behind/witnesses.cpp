@@ -8,6 +8,13 @@
 
 namespace petzval::engine {
 
+namespace {
+
+// A witness loses so much weight across its surface's structure that those along it decide.
+float across(float continues) { return continues * continues * continues; }
+
+}  // namespace
+
 // Weighted votes on the colour of a hidden surface.
 class Witnesses::Votes {
 public:
@@ -73,6 +80,8 @@ void Witnesses::add_pair(HiddenTextures::Point& hidden, const Found& a, const Fo
     const float total = a.distance_px + b.distance_px;
     const float wa = b.distance_px / total, wb = a.distance_px / total;
     const float alike = likeness(known_, a, search_.direction(k), b, search_.direction(k + kDirections / 2));
+    const Direction doubled = SurfaceStructure::doubled(search_.direction(k));
+    weight *= across(structure_.continues(a.place(), doubled) * structure_.continues(b.place(), doubled));
     const float closeness = 1 / a.distance_px + 1 / b.distance_px;
     const float vote = weight * (closeness * std::sqrt(closeness) * alike);
     votes.add(known_.colour(a.x, a.y), hidden.going_on(a.place()), wa * vote);
@@ -83,6 +92,9 @@ void Witnesses::add_pair(HiddenTextures::Point& hidden, const Found& a, const Fo
 // Adds a surface met in direction k alone.
 void Witnesses::add_alone(const HiddenPixel& here, HiddenTextures::Point& hidden, const Found& one,
                           std::size_t k, float nearest_px, float weight, Votes& votes) const {
+    const float continues =
+        structure_.continues(one.place(), SurfaceStructure::doubled(search_.direction(k)));
+    weight *= across(continues * continues);
     const float away = one.distance_px * one.distance_px;
     const Rgba colour = known_.going_on(one.place(), search_.direction(k), one.distance_px, here.edges);
     const float vote = weight * (completion_model.alone_weight * nearest_px / (away * one.distance_px));

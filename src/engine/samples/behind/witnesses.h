@@ -3,6 +3,7 @@
 
 #include "engine/samples/behind/search.h"
 #include "engine/samples/behind/smooth.h"
+#include "engine/samples/behind/structure.h"
 #include "engine/samples/outlines/hidden_outlines.h"
 #include "engine/samples/textures/hidden_textures.h"
 
@@ -24,8 +25,9 @@ struct Met {
 class Witnesses {
 public:
     // Borrows all.
-    Witnesses(const KnownSurfaces& known, const HiddenTextures& textures, const SurfaceSearch& search)
-        : known_(known), textures_(textures), search_(search) {}
+    Witnesses(const KnownSurfaces& known, const SurfaceStructure& structure, const HiddenTextures& textures,
+              const SurfaceSearch& search)
+        : known_(known), structure_(structure), textures_(textures), search_(search) {}
 
     // The estimate of the surface behind `here` to which the marked hits belong: the weighted mean of
     // their colours and radii. They are used up.
@@ -39,6 +41,7 @@ private:
                    float nearest_px, float weight, Votes& votes) const;
 
     const KnownSurfaces& known_;
+    const SurfaceStructure& structure_;
     const HiddenTextures& textures_;
     const SurfaceSearch& search_;
 };
