@@ -124,5 +124,33 @@ TEST_P(CoverageLaw, WhatIsBehindThickSmokeIsNotSeen) {
 
 PETZVAL_EVERY_DRAWER(CoverageLaw);
 
+// A disc alone in a nearer pane: the pane dims the disc by its alpha, and hides no part of it.
+TEST(Pane, HidesNoMoreThanItsAlpha) {
+    constexpr int kSize = 64;
+    constexpr float kPanePx = -12;
+    for (const float alpha : {0.01f, 0.3f, 0.9f})
+        for (const float disc_px : {0.0f, 6.0f}) {
+            Shot shot = flat(kSize, kSize, {0.2f * alpha, 0.2f * alpha, 0.2f * alpha, alpha}, kPanePx);
+            for (int y = 0; y < kSize; ++y)
+                for (int x = 0; x < kSize; ++x)
+                    if (std::hypot(float(x) - 31.5f, float(y) - 31.5f) < 10)
+                        shot.colour(x, y) = {0.8f, 0.8f, 0.8f, 1}, shot.coc_px(x, y) = disc_px;
+            const auto drawn = [&](const std::string& engine) {
+                DefocusJob job = shot.job(engine);
+                job.pupil_points = 512;
+                return rendered(job);
+            };
+            const Picture truth = drawn("reference");
+            for (const std::string engine : {"scatter", "gather", "sprites"}) {
+                const Picture image = drawn(engine);
+                double squares = 0;
+                for (std::size_t i = 0; i < image.size(); ++i)
+                    squares += std::pow(double(image.pixels()[i].a - truth.pixels()[i].a), 2);
+                EXPECT_LT(std::sqrt(squares / double(image.size())), 0.07)
+                    << engine << ", alpha " << alpha << ", disc " << disc_px;
+            }
+        }
+}
+
 }  // namespace
 }  // namespace petzval::conformance

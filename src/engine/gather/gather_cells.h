@@ -51,7 +51,7 @@ template <typename Emit>
 void for_each_sample(const EngineView& input, const FlatSurfaces& surfaces, int x, int y, const Emit& emit) {
     SeenFirst take(emit);
     if (!input.samples.are_stated())
-        return surfaces.visit_with_plate(input.samples.colour, input.samples.coc_px, x, y, take);
+        return surfaces.visit_through_panes(input.samples.colour, input.samples.coc_px, x, y, take);
     if (is_flat_pixel(input.samples.deep, x, y))
         return surfaces.visit(input.samples.colour, input.samples.coc_px, x, y, 1, take);
     if (input.samples.deep_dims_itself)

@@ -64,7 +64,7 @@ private:
         auto lamp = lamps.begin();
         for (int x = 0; x < input_.width(); ++x) {
             begin(x);
-            found_->flat.visit_with_plate(
+            found_->flat.visit_through_panes(
                 input_.samples.colour, input_.samples.coc_px, x, y,
                 [&](Rgba c, float coc_px, float share) { emit(sample(c, coc_px, share)); });
             if (lamp != lamps.end() && lamp->x == x) {

@@ -4,7 +4,9 @@
 #include "engine/samples/behind/plate.h"
 #include "engine/samples/hidden.h"
 #include "engine/waist/engine.h"
+#include "laws/surfaces.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 
@@ -38,6 +40,25 @@ struct FlatSurfaces {
             of_plate->visit(plate.colour, plate.coc_px, x, y, 1, emit);
         else
             emit(plate.colour(x, y), plate_px, 1.0f);
+    }
+    // The same, but a translucent surface in front of one that covers more is a pane. It covers no more than
+    // its alpha, and the emptiness that shows through it has the radius of that other surface. Elsewhere a
+    // translucent surface is part of a picture that fades: emptiness follows right behind it.
+    template <typename Emit>
+    void visit_through_panes(View<const Rgba> colour, View<const float> coc_px, int x, int y,
+                             Emit&& emit) const {
+        float room = 1, empty = 0, beyond_px = 0;  // room, empty: shares of the pixel
+        visit_with_plate(colour, coc_px, x, y, [&](Rgba c, float coc, float share) {
+            if (share <= 0) return emit(c, coc, share);  // light of lamps
+            if (room <= 0) return;
+            const Pane pane = pane_at(x, y, c.a / share);
+            const float takes = room * (share - pane.is * (share - c.a));
+            if (takes > 0 || c != Rgba{}) emit(room * c, coc, takes);
+            if (pane.is <= 0) return;
+            const float open = room * pane.is * share;
+            empty += open, room -= open, beyond_px = pane.beyond_px;
+        });
+        if (empty > 0) emit(Rgba{}, beyond_px, empty);
     }
     // The same as visit(); what the emitted references change is changed here. Pixels may share hidden
     // surfaces.
@@ -78,6 +99,22 @@ struct FlatSurfaces {
     std::size_t bytes_of_layer(std::size_t pixels) const;
 
 private:
+    // 0…1: how clearly a surface behind covers more than a pixel's own; and the radius of that one.
+    struct Pane {
+        float is = 0, beyond_px = 0;
+    };
+    Pane pane_at(int x, int y, float alpha) const {
+        if (alpha >= laws::kOpaqueLayer) return {};
+        constexpr float kFades =
+            0.1f;  // of the open part: alpha may change so much along a picture that fades
+        float most = 0;
+        Pane pane;
+        for (const Hidden& h : hidden.at(x, y))
+            if (h.share > 0 && h.colour.a / h.share > most)
+                most = h.colour.a / h.share, pane.beyond_px = h.coc_px;
+        pane.is = std::clamp((most - alpha) / (1 - alpha) / kFades - 1, 0.0f, 1.0f);
+        return pane;
+    }
     template <typename Self, typename Emit>
     static void visit(Self& self, View<const Rgba> colour, View<const float> coc_px, int x, int y,
                       float share_alone, Emit& emit) {
