@@ -8,7 +8,7 @@
 namespace petzval {
 
 // True if at most places where a surface ends before emptiness, the last pixel has less than 0.9 of the depth
-// of those inside. Infinite depth counts as emptiness.
+// of the pixels inside. A pixel of infinite depth is empty.
 bool dips_before_emptiness(View<const float> depth_m, Workers& workers);
 
 // Gives each of these pixels the depth of the surface inside, or none if the surface covers less than half of

@@ -11,10 +11,10 @@ namespace petzval::engine {
 
 // Every sample of every pixel, nearest first, by rows. In a flat input, silhouette pixels are separated into
 // their surfaces, and hidden parts near silhouettes are estimated (engine/samples/hidden.h). A deep input
-// states its samples; surfaces behind opaque ones are estimated (deep/deep_completed.h). The uncovered part
-// of a flat pixel (alpha below 1) is emptiness: right behind its surface, or behind a pane at the radius of
-// the surface beyond that (flat_surfaces.h). `connected`: connections(input.samples.coc_px). With a clean
-// plate, the plate is completed, and the surfaces in front of it are placed before it.
+// states its samples; surfaces behind opaque ones are estimated (deep/deep_completed.h). In a flat
+// pixel with an alpha below 1, emptiness follows right behind the surface; behind a pane, it has the radius
+// of the surface beyond the pane (flat_surfaces.h). `connected`: connections(input.samples.coc_px). With a
+// clean plate, the plate is completed, and the surfaces in front of it are placed before it.
 class CompletedPicture {
 public:
     // `input` must outlive this object.

@@ -47,8 +47,9 @@ struct FlatSurfaces {
     template <typename Emit>
     void visit_through_panes(View<const Rgba> colour, View<const float> coc_px, int x, int y,
                              Emit&& emit) const {
+        if (is_before(x, y)) return visit_with_plate(colour, coc_px, x, y, emit);  // the plate shows through
         float room = 1, empty = 0, beyond_px = 0;  // room, empty: shares of the pixel
-        visit_with_plate(colour, coc_px, x, y, [&](Rgba c, float coc, float share) {
+        visit(colour, coc_px, x, y, 1, [&](Rgba c, float coc, float share) {
             if (share <= 0) return emit(c, coc, share);  // light of lamps
             if (room <= 0) return;
             const Pane pane = pane_at(x, y, c.a / share);
@@ -99,14 +100,15 @@ struct FlatSurfaces {
     std::size_t bytes_of_layer(std::size_t pixels) const;
 
 private:
-    // 0…1: how clearly a surface behind covers more than a pixel's own; and the radius of that one.
+    // A pixel is a pane to the degree, 0…1, to which a surface behind it covers more than it does. beyond_px:
+    // the radius of that surface.
     struct Pane {
         float is = 0, beyond_px = 0;
     };
     Pane pane_at(int x, int y, float alpha) const {
         if (alpha >= laws::kOpaqueLayer) return {};
         constexpr float kFades =
-            0.1f;  // of the open part: alpha may change so much along a picture that fades
+            0.1f;  // of the open part; along a picture that fades, alpha may change so much
         float most = 0;
         Pane pane;
         for (const Hidden& h : hidden.at(x, y))

@@ -7,11 +7,11 @@
 #include <cmath>
 
 namespace petzval::engine {
-
 namespace {
 
-// A witness loses so much weight across its surface's structure that those along it decide.
-float across(float continues) { return continues * continues * continues; }
+// A witness across its surface's structure loses so much weight that those along it decide. continues: the
+// product of two answers of SurfaceStructure::continues(), of both ends of a pair or twice that of one end.
+float weight_along(float continues) { return continues * continues * continues; }
 
 }  // namespace
 
@@ -81,7 +81,8 @@ void Witnesses::add_pair(HiddenTextures::Point& hidden, const Found& a, const Fo
     const float wa = b.distance_px / total, wb = a.distance_px / total;
     const float alike = likeness(known_, a, search_.direction(k), b, search_.direction(k + kDirections / 2));
     const Direction doubled = SurfaceStructure::doubled(search_.direction(k));
-    weight *= across(structure_.continues(a.place(), doubled) * structure_.continues(b.place(), doubled));
+    weight *=
+        weight_along(structure_.continues(a.place(), doubled) * structure_.continues(b.place(), doubled));
     const float closeness = 1 / a.distance_px + 1 / b.distance_px;
     const float vote = weight * (closeness * std::sqrt(closeness) * alike);
     votes.add(known_.colour(a.x, a.y), hidden.going_on(a.place()), wa * vote);
@@ -94,7 +95,7 @@ void Witnesses::add_alone(const HiddenPixel& here, HiddenTextures::Point& hidden
                           std::size_t k, float nearest_px, float weight, Votes& votes) const {
     const float continues =
         structure_.continues(one.place(), SurfaceStructure::doubled(search_.direction(k)));
-    weight *= across(continues * continues);
+    weight *= weight_along(continues * continues);
     const float away = one.distance_px * one.distance_px;
     const Rgba colour = known_.going_on(one.place(), search_.direction(k), one.distance_px, here.edges);
     const float vote = weight * (completion_model.alone_weight * nearest_px / (away * one.distance_px));
