@@ -12,7 +12,7 @@ namespace petzval {
 // plane is empty where the given one stays as it is.
 struct EmptyFar {
     Plane plane;
-    std::string warning;  // about a picture that is light without any alpha; else empty
+    std::string warning;  // about light without any alpha, and alpha that is not 0 to 1; else empty
 
     // The same frame with this depth, while `plane` lasts.
     Rendered of(Rendered rendered) const;

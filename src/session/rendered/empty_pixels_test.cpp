@@ -70,5 +70,17 @@ TEST(EmptyPixels, AreSurfacesWhereAPictureHasNoAlpha) {
     EXPECT_NE(far.warning.find("alpha of 0"), std::string::npos);
 }
 
+TEST(EmptyPixels, WarnOfAlphaThatIsNotZeroToOne) {
+    Picture colour = row();
+    const Plane depth(5, 1, 3.0f);
+    Rendered rendered;
+    rendered.colour = colour, rendered.depth = PlanarDepth{depth};
+    colour(0, 0).a = 1.001f, colour(1, 0).a = -0.001f;  // filters leave as much
+    EXPECT_EQ(empty_far(rendered, one_thread()).warning, "");
+    colour(0, 0).a = 255;
+    EXPECT_EQ(empty_far(rendered, one_thread()).warning,
+              "the picture has alpha from -0.001 to 255: values below 0 count as 0, above 1 as 1");
+}
+
 }  // namespace
 }  // namespace petzval
