@@ -66,6 +66,7 @@ constexpr Limit kLimits[] = {
 }  // namespace
 
 Status check_limit(const std::string& path, const Json& value) {
+    if ((path == "engine" || path == "lens.name") && value == "") return must_be("a name", value);
     double number = 0;
     if ((!value.is_number() && !value.is_string()) || !from_json(value, number)) return Done{};
     for (const Limit& limit : kLimits)

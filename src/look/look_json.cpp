@@ -138,14 +138,12 @@ Result<Look> look_with(Look look, const std::string& path, const std::string& va
     const auto refused = [](const std::string& why) { return Error{ErrorCode::InvalidArgument, why}; };
     const Field* const field = look::find_field(path);
     if (!field) return refused(unknown(path).message);
-    const Json json = Json::parse(value, nullptr, false);
-    if (!json.is_discarded() && field->set(look, json)) {
-        const Status fits = look::check_limit(path, json);
-        return fits ? Result<Look>(std::move(look)) : refused(path + ": " + fits.error().message);
-    }
-    const Status as_word = field->set(look, Json(value));
-    if (as_word) return look;
-    return refused(path + ": " + as_word.error().message);
+    const Json parsed = Json::parse(value, nullptr, false);
+    const bool is_json = !parsed.is_discarded() && field->set(look, parsed);
+    const Json json = is_json ? parsed : Json(value);
+    Status done = is_json ? Status(Done{}) : field->set(look, json);
+    if (done) done = look::check_limit(path, json);
+    return done ? Result<Look>(std::move(look)) : refused(path + ": " + done.error().message);
 }
 
 }  // namespace petzval

@@ -227,6 +227,9 @@ TEST(LookWith, RefusesWhatItDoesNotKnow) {
     EXPECT_NE(refusal("lens.blades", "many").find("lens.blades"), std::string::npos);
     EXPECT_NE(refusal("quality", "best").find("best"), std::string::npos);
     EXPECT_NE(refusal("depth.edges", "\xb5").find("depth.edges"), std::string::npos);  // no UTF-8
+    EXPECT_EQ(refusal("engine", ""), "engine: must be a name, not \"\"");
+    EXPECT_EQ(refusal("lens.name", "\"\""), "lens.name: must be a name, not \"\"");
+    EXPECT_EQ(refusal("glare.bloom", "inf"), "glare.bloom: must be from 0 to 1, not \"inf\"");
 }
 
 }  // namespace
