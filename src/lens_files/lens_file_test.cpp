@@ -205,6 +205,18 @@ TEST(LensFile, JsonMayBringItsOwnGlassAndUnits) {
     EXPECT_TRUE(warns(file, "vignettes nothing"));
 }
 
+TEST(LensFile, WavelengthsOfJsonRise) {
+    const auto text = [](const std::string& shortest, const std::string& longest) {
+        return R"({"wavelengths_um": {"short": )" + shortest + R"(, "primary": 0.55, "long": )" + longest +
+               R"(}, "aperture": {"type": "F_NUMBER", "value": 8}, "surfaces": [
+        {"radius": 50, "thickness": 3, "medium": {"nd": 1.5, "Vd": 60}},
+        {"radius": -50, "thickness": 90, "medium": "air", "stop": true}]})";
+    };
+    EXPECT_EQ(read(text("0.45", "0.65")).lens.long_um, 0.65);
+    EXPECT_NE(refusal(text("0.65", "0.45")).find("must rise"), std::string::npos);
+    EXPECT_NE(refusal(text("0.6", "0.65")).find("must rise"), std::string::npos);
+}
+
 TEST(LensFile, ACylinderIsReadAndHasNoOtherRadius) {
     const auto text = [](const std::string& radius) {
         return R"({"units": "mm", "aperture": {"type": "F_NUMBER", "value": 8}, "surfaces": [

@@ -196,6 +196,8 @@ Status Reader::wavelengths(const Json& value) {
     }
     if (!value.is(Json::Type::Object))
         return at_line(value.line, "\"wavelengths_um\" must hold short, primary and long");
+    if (!(lens.short_um <= lens.primary_um && lens.primary_um <= lens.long_um))
+        return at_line(value.line, "\"wavelengths_um\" must rise from short over primary to long");
     return Done{};
 }
 
