@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import ctypes
+import struct
 import sys
 
 from . import _dlpack, errors
@@ -10,7 +11,7 @@ from ._buffer import Buffer
 FLOAT, HALF = 0, 1  # as PETZVAL_FLOAT, PETZVAL_HALF
 SAMPLES = {"f": FLOAT, "e": HALF, "f4": FLOAT, "f2": HALF, "float32": FLOAT, "float16": HALF}
 BYTES = {FLOAT: 4, HALF: 2}
-NAMES = {"B": "uint8", "u1": "uint8", "H": "uint16", "u2": "uint16", "d": "float64", "f8": "float64"}
+INTEGERS = "bBhHiIlLqQ"  # letters of the buffer protocol; capitals are unsigned
 
 
 class Memory:
@@ -33,10 +34,19 @@ class Memory:
         return self.address + index * self.strides[2]
 
 
+def _type_name(kind: str) -> str:
+    """A type as numpy calls it, from a letter of the buffer protocol or the code of an array interface."""
+    if len(kind) == 1 and kind in INTEGERS:
+        return f"{'u' if kind.isupper() else ''}int{8 * struct.calcsize(kind)}"
+    if len(kind) == 2 and kind[0] in "iuf" and kind[1].isdigit():
+        return {"i": "int", "u": "uint", "f": "float"}[kind[0]] + str(8 * int(kind[1]))
+    return {"d": "float64", "?": "bool", "b1": "bool"}.get(kind, kind)
+
+
 def _sample(kind: str, name: str) -> int:
     if kind in SAMPLES:
         return SAMPLES[kind]
-    kind = NAMES.get(kind, kind)
+    kind = _type_name(kind)
     if kind in ("uint8", "uint16"):
         raise errors.InvalidArgument(
             f"{name} holds {kind}: display codes, which are not light. petzval takes scene-linear float32 or float16; "
@@ -56,8 +66,15 @@ def _of_interface(array, name: str) -> Memory:
     return Memory(array, address, shape, tuple(strides), sample, readonly)
 
 
+def _packed(array, found: Buffer, sample: int) -> Memory:
+    """A read-only copy of a broadcast array, whose pixels share their memory; the C API refuses such strides."""
+    copy = ctypes.create_string_buffer(memoryview(array).tobytes())
+    strides = _dlpack.row_major(found.shape, BYTES[sample])
+    return Memory(copy, ctypes.addressof(copy), found.shape, strides, sample, True)
+
+
 def memory_of(array, name: str) -> Memory:
-    """The samples of any array on the CPU. `name` stands for it in messages.
+    """The samples of any array on the CPU; a broadcast array is copied. `name` stands for it in messages.
 
     Raises InvalidArgument for other devices (by their name), for integers and float64, and for objects that are no
     arrays.
@@ -78,8 +95,10 @@ def memory_of(array, name: str) -> Memory:
             ) from None
         tensor = _dlpack.Imported(array)
         return Memory((array, tensor), tensor.address, tensor.shape, tensor.strides, _sample(tensor.type, name), False)
-    return Memory((array, found), found.address, found.shape, found.strides, _sample(found.format, name),
-                  found.readonly)
+    sample = _sample(found.format, name)
+    if any(stride == 0 and length > 1 for stride, length in zip(found.strides, found.shape)):
+        return _packed(array, found, sample)
+    return Memory((array, found), found.address, found.shape, found.strides, sample, found.readonly)
 
 
 class Array:

@@ -2,6 +2,7 @@
 """Arrays in and out without copies: the buffer protocol, __array_interface__ and DLPack."""
 from __future__ import annotations
 import ctypes
+import struct
 import sys
 from . import _dlpack, errors
 from ._buffer import Buffer
@@ -9,7 +10,7 @@ FLOAT: int
 HALF: int
 SAMPLES: dict
 BYTES: dict
-NAMES: dict
+INTEGERS = 'bBhHiIlLqQ'
 
 class Memory:
     """Borrowed samples: address, shape, strides in bytes, FLOAT or HALF, and the object that owns them."""
@@ -27,7 +28,7 @@ class Memory:
         """The address of a channel, the last dimension."""
 
 def memory_of(array, name: str) -> Memory:
-    """The samples of any array on the CPU. `name` stands for it in messages.
+    """The samples of any array on the CPU; a broadcast array is copied. `name` stands for it in messages.
 
     Raises InvalidArgument for other devices (by their name), for integers and float64, and for objects that are no
     arrays.

@@ -78,6 +78,20 @@ class In(unittest.TestCase):
         colour.flags.writeable = False
         self.same(colour)
 
+    def test_broadcast_arrays_are_copied(self):
+        colour, plane = np.full((HEIGHT, WIDTH, 4), 0.5, np.float32), np.full((HEIGHT, WIDTH), 2, np.float32)
+        expected = np.asarray(self.session.defocus(petzval.Shot(colour, radii_px=plane)).image)
+        for kind in (np.float32, np.float16):
+            given = (np.broadcast_to(kind(0.5), colour.shape), np.broadcast_to(kind(2), plane.shape))
+            self.assertTrue(memory_of(given[0], "colour").readonly)
+            frame = self.session.defocus(petzval.Shot(given[0], radii_px=given[1]))
+            np.testing.assert_array_equal(np.asarray(frame.image), expected)
+        row = np.arange(WIDTH, dtype=np.float32)
+        self.same(picture(), np.broadcast_to(radii()[..., None], (HEIGHT, WIDTH, 1)))
+        copied = memory_of(np.broadcast_to(row, (HEIGHT, WIDTH)), "depth_m")
+        floats = np.frombuffer(copied.owner, np.float32, HEIGHT * WIDTH).reshape(HEIGHT, WIDTH)
+        np.testing.assert_array_equal(floats, np.tile(row, (HEIGHT, 1)))
+
     def test_a_plain_buffer(self):
         floats = array.array("f", picture().ravel().tolist())
         self.same(memoryview(floats).cast("B").cast("f", (HEIGHT, WIDTH, 4)))
@@ -108,6 +122,15 @@ class Refused(unittest.TestCase):
 
     def test_float64_is_not_converted_silently(self):
         self.refuses(picture().astype(np.float64), "float64", "float32")
+
+    def test_types_have_their_names(self):
+        class Host:
+            def __init__(self, held):
+                self.held, self.__array_interface__ = held, held.__array_interface__
+        for kind in ("int8", "int16", "int32", "int64", "uint32", "uint64", "bool"):
+            given = np.zeros((HEIGHT, WIDTH, 3), kind)
+            self.refuses(given, f"colour holds {kind};")
+            self.refuses(Host(given), f"colour holds {kind};")
 
     def test_big_endian_samples(self):
         self.refuses(picture().astype(">f4"), "colour")
