@@ -36,7 +36,7 @@ struct CleanPlate {
     View<const float> coc_px;
     View<const unsigned char> is_stated;  // 0: the picture's own pixel, of which the plate says nothing
     static constexpr unsigned char kOutOfSight = 2;  // of is_stated: no ray through the lens reaches it
-    bool covers = true;  // the frame; else it is patches, such as what other frames show
+    bool covers = true;  // the frame or a crop of it; else it is patches, such as what other frames show
     bool empty() const { return coc_px.empty(); }
     bool is_out_of_sight(int x, int y) const { return is_stated(x, y) == kOutOfSight; }
     CleanPlate part(const Rect& r) const {

@@ -4,7 +4,9 @@
 #include "engine/samples/silhouettes/two_surfaces.h"
 
 #include <algorithm>
-#include <atomic>
+#include <vector>
+
+#include <climits>
 
 namespace petzval::engine {
 namespace {
@@ -55,6 +57,33 @@ private:
     }
 };
 
+// Pixels that a plate states in one row.
+struct StatedRow {
+    int count = 0, first = INT_MAX, last = -1;
+    void add(int x) {
+        ++count;
+        first = std::min(first, x);
+        last = x;
+    }
+};
+
+// True if the plate states nearly all of a rectangle of some size: a whole frame, or a crop of one. Patches
+// that were painted, or found in other frames, do not fill the rectangle around them.
+bool fills_its_rectangle(const std::vector<StatedRow>& rows, int width) {
+    constexpr double kFilled = 0.9, kLeastOfFrame = 0.05;
+    double count = 0;
+    Rect around{width, int(rows.size()), 0, 0};
+    for (int y = 0; y < int(rows.size()); ++y) {
+        const StatedRow& row = rows[std::size_t(y)];
+        if (row.count == 0) continue;
+        count += row.count;
+        around = {std::min(around.x0, row.first), std::min(around.y0, y), std::max(around.x1, row.last + 1),
+                  y + 1};
+    }
+    return !around.empty() && count >= kFilled * double(around.width()) * double(around.height()) &&
+           count >= kLeastOfFrame * double(width) * double(rows.size());
+}
+
 }  // namespace
 
 BackPicture back_picture(const StatedPicture& p, Workers& workers) {
@@ -66,9 +95,8 @@ BackPicture back_picture(const StatedPicture& p, Workers& workers) {
     const int width = p.colour.width(), height = p.colour.height();
     back.colour = Picture::uninitialised(width, height), back.coc_px = Plane::uninitialised(width, height);
     back.is_stated = Image<unsigned char>(width, height);
-    std::atomic<std::size_t> covered = 0;
+    std::vector<StatedRow> rows(static_cast<std::size_t>(height));
     parallel_for(height, workers, [&](int y) {
-        std::size_t in_row = 0;
         for (int x = 0; x < width; ++x) {
             back.colour(x, y) = p.colour(x, y), back.coc_px(x, y) = p.radius_px(p.depth(x, y));
             const auto stated = plate->at(x, y);
@@ -78,16 +106,14 @@ BackPicture back_picture(const StatedPicture& p, Workers& workers) {
             constexpr float kLeastCoverage = 0.5f;
             const bool opaque = p.colour(x, y).a >= kOpaque;
             if (opaque && colour.a < kLeastCoverage) continue;
-            ++in_row;
+            rows[std::size_t(y)].add(x);
             if (!is_same_or_in_front(p, depth, p.depth(x, y)) && !is_before_plate(back.coc_px(x, y), radius))
                 continue;
             back.colour(x, y) = opaque ? colour * (1 / colour.a) : colour, back.coc_px(x, y) = radius;
             back.is_stated(x, y) = 1;
         }
-        covered += in_row;
     });
-    constexpr double kCovers = 0.9;
-    back.covers = double(covered) >= kCovers * double(back.coc_px.size());
+    back.covers = fills_its_rectangle(rows, width);
     return back;
 }
 
