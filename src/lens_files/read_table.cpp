@@ -2,7 +2,8 @@
 //
 //   [number] radius thickness [glass | nd [Vd]] [clear DIAMETER] [stop]
 //
-// Columns are parted by tabs, commas, semicolons, bars or blanks; ∞, "inf", "plano" and 0 are flat; "air", 1
+// Columns are parted by tabs, commas, semicolons, bars or blanks; a comma between digits in a line with tabs,
+// semicolons or bars, and without points, is a decimal comma. ∞, "inf", "plano" and 0 are flat; "air", 1
 // or nothing is air. The heading may state "f = 50" and "F/2". Every guess is a warning.
 #include "lens_files/readers.h"
 
@@ -28,6 +29,10 @@ bool marks_stop(std::string_view word) {
     return is_word_of(word, {"STOP", "STO", "(STOP)", "DIAPHRAGM", "APERTURE", "*"});
 }
 
+bool marks_object_or_image(std::string_view word) {
+    return is_word_of(word, {"OBJ", "OBJECT", "IMA", "IMAGE", "IMG"});
+}
+
 bool is_flat(std::string_view word) { return is_word_of(word, {"PLANO", "PLAN", "PLANE", "FLAT"}); }
 
 std::optional<double> radius_of(std::string_view word) {
@@ -38,7 +43,9 @@ std::optional<double> radius_of(std::string_view word) {
 std::optional<Row> row_of(const Line& line) {
     Row row{line.number, {}, false};
     for (const std::string_view word : split_words(line.text))
-        if (marks_stop(word))
+        if (marks_object_or_image(word))
+            return std::nullopt;
+        else if (marks_stop(word))
             row.is_stop = true;
         else
             row.words.push_back(word);
@@ -53,6 +60,20 @@ std::vector<Row> rows_of(const std::vector<Line>& lines) {
     for (const Line& line : lines)
         if (auto row = row_of(line)) rows.push_back(std::move(*row));
     return rows;
+}
+
+// A surface that is left out makes another lens: lines with numbers between rows must be rows.
+Status check_between(const std::vector<Line>& lines, const std::vector<Row>& rows) {
+    for (const Line& line : lines) {
+        if (line.number <= rows.front().line || line.number >= rows.back().line || row_of(line)) continue;
+        const auto words = split_words(line.text);
+        const auto is_number = [](std::string_view word) { return parse_number(word).has_value(); };
+        if (std::count_if(words.begin(), words.end(), is_number) >= 2)
+            return at_line(line.number,
+                           "is not a row: one begins with radius and thickness, as numbers; put # "
+                           "before notes between rows");
+    }
+    return Done{};
 }
 
 // Numbers of surfaces in front, 1, 2, 3, …, are taken away. A row of the stop may have none, whether the
@@ -201,14 +222,45 @@ bool is_table(const std::vector<Line>& lines) {
     return has_words && rows_of(lines).size() > 1;
 }
 
+namespace {
+
+// Makes points of decimal commas.
+void point_decimals(std::string& text) {
+    const auto digits_around = [&](std::size_t at) {
+        const auto is_digit = [&](std::size_t i) {
+            return i < text.size() && text[i] >= '0' && text[i] <= '9';
+        };
+        return at > 0 && is_digit(at - 1) && is_digit(at + 1);
+    };
+    for (std::size_t begin = 0, end = 0; begin < text.size(); begin = end + 1) {
+        end = std::min(text.find_first_of("\r\n", begin), text.size());
+        bool has_other_columns = false, has_points = false;
+        for (std::size_t at = begin; at < end; ++at) {
+            has_other_columns = has_other_columns || text[at] == '\t' || text[at] == ';' || text[at] == '|';
+            has_points = has_points || (text[at] == '.' && digits_around(at));
+        }
+        if (!has_other_columns || has_points) continue;
+        for (std::size_t at = begin; at < end; ++at)
+            if (text[at] == ',' && digits_around(at)) text[at] = '.';
+    }
+}
+
+}  // namespace
+
 std::string table_text(const std::string& text) {
-    const std::array<std::array<std::string_view, 2>, 3> signs{
-        {{"\xE2\x88\x9E", " inf "}, {"\xE2\x88\x92", "-"}, {"\xC2\xA0", " "}}};
+    // Infinity; minus, hyphen, non-breaking hyphen, en dash; no-break space.
+    const std::array<std::array<std::string_view, 2>, 6> signs{{{"\xE2\x88\x9E", " inf "},
+                                                                {"\xE2\x88\x92", "-"},
+                                                                {"\xE2\x80\x90", "-"},
+                                                                {"\xE2\x80\x91", "-"},
+                                                                {"\xE2\x80\x93", "-"},
+                                                                {"\xC2\xA0", " "}}};
     std::string plain = text;
     for (const auto& [sign, word] : signs)
         for (std::size_t at = plain.find(sign); at != std::string::npos;
              at = plain.find(sign, at + word.size()))
             plain.replace(at, sign.size(), word);
+    point_decimals(plain);
     bool in_comment = false;
     for (char& c : plain) {
         in_comment = c != '\n' && c != '\r' && (in_comment || c == '#');
@@ -223,6 +275,7 @@ Result<LensFile> read_table(const std::string& text) {
     const std::vector<Line> lines = split_lines(text);
     std::vector<Row> rows = rows_of(lines);
     const int first_row = rows.front().line;
+    if (const Status complete = check_between(lines, rows); !complete) return complete.error();
     drop_numbers(rows);
     TableReader reader(file);
     for (const Row& row : rows)

@@ -57,6 +57,46 @@ TEST(Table, APatentsTableIsTheLensThatShips) {
     EXPECT_NEAR(focal_length(file), 50.36, 0.01);
 }
 
+// The same text with all of these replaced.
+std::string with(std::string text, const std::string& from, const std::string& to) {
+    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+        text.replace(at, from.size(), to);
+    return text;
+}
+
+TEST(Table, DashesOfPrintAreMinusSigns) {
+    for (const char* dash : {"\u2010", "\u2011", "\u2013", "-"})
+        EXPECT_NEAR(focal_length(read(with(kTronnier, "−", dash))), 50.36, 0.01) << dash;
+}
+
+TEST(Table, DecimalCommasAreReadInColumnsOfTabsOrSemicolons) {
+    for (const char* column : {"\t", ";"}) {
+        std::string text = with(kTronnier, "  ", " ");
+        while (text.find("  ") != std::string::npos) text = with(text, "  ", " ");
+        text = with(with(with(with(text, "f = 50", "f=50"), "Double Gauss ", ""), " ", column), ".", ",");
+        const LensFile file = read(text);
+        ASSERT_EQ(file.lens.surfaces.size(), 11u);
+        EXPECT_NEAR(focal_length(file), 50.36, 0.01);
+        EXPECT_EQ(file.lens.surfaces[0].clear_radius_mm, 12.6);
+    }
+}
+
+TEST(Table, ObjectAndImageAreNoSurfaces) {
+    const std::string text =
+        with(kTronnier, "1   29.475", "0 inf inf Object\n1   29.475") + "12 inf 0 43 Image\n";
+    EXPECT_EQ(read(text).lens.surfaces.size(), 11u);
+    EXPECT_EQ(read(with(text, "0 inf inf Object", "OBJ inf inf")).lens.surfaces.size(), 11u);
+}
+
+// Left out, surfaces 2 and 6 would make another lens.
+TEST(Table, ALineOfNumbersThatIsNoRowIsRefused) {
+    EXPECT_NE(refusal(with(kTronnier, "2   84.83    0.12", "R2  84.83    0.12")).find("line 4: is not a row"),
+              std::string::npos);
+    const std::string unnumbered = "F/4 stop first\n50 3 1.5 60\n-50 d2 1.6 40\n-80 90\n";
+    EXPECT_NE(refusal(unnumbered).find("line 3: is not a row"), std::string::npos) << refusal(unnumbered);
+    EXPECT_EQ(read(with(unnumbered, "-50 d2", "# 7 8\nGroup 1\n-50 2")).lens.surfaces.size(), 3u);
+}
+
 TEST(Table, ColumnsMayBePartedByTabsCommasOrBars) {
     const double expected = focal_length(read(kTronnier));
     for (const char separator : {',', ';', '|', '\t'}) {
