@@ -6,18 +6,24 @@
 #include "files/exr/file.h"
 #include "files/output_file.h"
 #include "files/raster/raster.h"
+#include "files/raster/raster_tags.h"
 #include "files/wording.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <csetjmp>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <png.h>
 
 namespace petzval {
 namespace {
+
+constexpr const char* kColourCodes = "cICP";  // older versions of libpng do not know this chunk
 
 // State for libpng's callbacks.
 struct PngReading {
@@ -91,6 +97,8 @@ bool read_png_header(PngReading& r) {
     png_set_user_limits(r.png, kLongestSide, kLongestSide);
     png_set_read_fn(r.png, &r, on_read);
     png_set_read_status_fn(r.png, on_row);
+    png_set_keep_unknown_chunks(r.png, PNG_HANDLE_CHUNK_ALWAYS,
+                                reinterpret_cast<png_const_bytep>(kColourCodes), 1);
     png_read_info(r.png, r.info);
     png_uint_32 width = 0, height = 0;
     int depth = 0, type = 0;
@@ -111,6 +119,34 @@ bool read_png_header(PngReading& r) {
     r.channels = png_get_channels(r.png, r.info);
     r.bits = png_get_bit_depth(r.png, r.info);
     return true;
+}
+
+// The reader uses no profile, no primaries and no transfer curve of the file; a sentence if the file has one
+// that is not sRGB's.
+std::string note_of_colours(const PngReading& r) {
+    png_charp name = nullptr;
+    png_bytep profile = nullptr;
+    png_uint_32 bytes = 0;
+    int compression = 0;
+    if (png_get_iCCP(r.png, r.info, &name, &compression, &profile, &bytes)) {
+        if (const std::string note = note_of_profile({profile, bytes}); !note.empty()) return note;
+    }
+    png_unknown_chunkp chunks = nullptr;
+    const int count = png_get_unknown_chunks(r.png, r.info, &chunks);
+    for (int i = 0; i < count; ++i) {
+        constexpr png_byte kPrimaries = 1, kCurve = 13;
+        if (std::string_view(reinterpret_cast<const char*>(chunks[i].name)) != kColourCodes) continue;
+        if (chunks[i].size >= 2 && (chunks[i].data[0] != kPrimaries || chunks[i].data[1] != kCurve))
+            return "its colour codes (cICP) are not used: colours are taken as Rec. 709's, with the curve of "
+                   "read.transfer";
+    }
+    constexpr double kOfSrgb = 1 / 2.2, kRounding = 0.03;
+    double gamma = kOfSrgb;
+    if (!png_get_gAMA(r.png, r.info, &gamma) || std::abs(gamma - kOfSrgb) <= kRounding) return "";
+    std::array<char, 80> text{};
+    std::snprintf(text.data(), text.size(),
+                  "its gamma (gAMA) of %.4g is not used; read.transfer sets the curve", gamma);
+    return text.data();
 }
 
 bool read_png_rows(PngReading& r) {
@@ -160,9 +196,9 @@ Error png_error_of(const InputFile& file, const PngReading& r) {
     return unreadable(file.path(), r.message);
 }
 
-// Reads the header only when `pixels` is false.
+// Reads the header only when `pixels` is false. note: what of the file's colours is not used.
 Result<PngPixels> read(const InputFile& file, std::size_t max_pixels, bool pixels,
-                       const Workers* workers = nullptr) {
+                       const Workers* workers = nullptr, std::string* note = nullptr) {
     PngReading r;
     r.file = &file;
     r.workers = workers;
@@ -173,6 +209,7 @@ Result<PngPixels> read(const InputFile& file, std::size_t max_pixels, bool pixel
         return Error{ErrorCode::OutOfMemory, printable(file.path(), 4096) + ": no memory for libpng"};
     if (!read_png_header(r)) return png_error_of(file, r);
     PngPixels out{r.width, r.height, r.channels, r.bits, {}};
+    if (note) *note = note_of_colours(r);
     if (!pixels) return out;
     const std::size_t count = std::size_t(r.width) * std::size_t(r.height) * std::size_t(r.channels);
     std::vector<png_byte> bytes(count * std::size_t(r.bits / 8));
@@ -222,9 +259,9 @@ bool write_pixels(PngWriting& w, const PngPixels& p) {
 }  // namespace
 
 Result<Raster> read_png_raster(const InputFile& file, const ReadOptions& options, bool pixels) {
-    Result<PngPixels> png = read(file, options.max_pixels, pixels, options.workers);
-    if (!png) return png.error();
     Raster raster;
+    Result<PngPixels> png = read(file, options.max_pixels, pixels, options.workers, &raster.note);
+    if (!png) return png.error();
     raster.width = png->width, raster.height = png->height;
     raster.channels = png->channels, raster.bits = png->bits;
     raster.compression = "zip";

@@ -41,6 +41,8 @@ struct RawPng {
     int width = 5, height = 3, depth = 8, type = PNG_COLOR_TYPE_GRAY, interlace = PNG_INTERLACE_NONE;
     std::vector<png_color> palette;
     std::vector<png_byte> palette_alpha;
+    double gamma = 0;                    // gAMA; 0: none
+    std::vector<png_byte> colour_codes;  // cICP; empty: none
     std::vector<std::vector<png_byte>> rows;
 };
 
@@ -55,12 +57,37 @@ void write_raw_png(const std::string& path, RawPng& raw) {
     if (!raw.palette.empty()) png_set_PLTE(png, info, raw.palette.data(), int(raw.palette.size()));
     if (!raw.palette_alpha.empty())
         png_set_tRNS(png, info, raw.palette_alpha.data(), int(raw.palette_alpha.size()), nullptr);
+    if (raw.gamma > 0) png_set_gAMA(png, info, raw.gamma);
+    png_unknown_chunk codes{
+        {'c', 'I', 'C', 'P', 0}, raw.colour_codes.data(), raw.colour_codes.size(), PNG_HAVE_IHDR};
+    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_ALWAYS, codes.name, 1);
+    if (!raw.colour_codes.empty()) png_set_unknown_chunks(png, info, &codes, 1);
     std::vector<png_bytep> rows;
     for (auto& row : raw.rows) rows.push_back(row.data());
     png_set_rows(png, info, rows.data());
     png_write_png(png, info, PNG_TRANSFORM_IDENTITY, nullptr);
     png_destroy_write_struct(&png, &info);
     std::fclose(file);
+}
+
+TEST(Png, ColoursThatAreNotUsedAreNamed) {
+    const TemporaryFolder folder;
+    const auto said = [&](double gamma, std::vector<png_byte> codes) {
+        RawPng raw;
+        raw.gamma = gamma;
+        raw.colour_codes = std::move(codes);
+        raw.rows.assign(3, std::vector<png_byte>(5, 100));
+        write_raw_png(folder / "a.png", raw);
+        ReadOptions options;
+        options.need_depth = false;
+        const auto frame = read_frame(folder / "a.png", options);
+        if (!frame || frame->detected.size() != 2) return std::string();
+        return frame->detected.back();
+    };
+    EXPECT_EQ(said(0, {}), "");
+    EXPECT_EQ(said(1 / 2.2, {1, 13, 0, 1}), "");
+    EXPECT_THAT(said(1, {}), HasSubstr("(gAMA) of 1 is not used"));
+    EXPECT_THAT(said(0, {9, 16, 0, 1}), HasSubstr("(cICP) are not used"));  // Rec. 2020, PQ
 }
 
 TEST(Png, EightAndSixteenBitSamplesComeBackAsStored) {
