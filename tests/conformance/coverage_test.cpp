@@ -124,6 +124,13 @@ TEST_P(CoverageLaw, WhatIsBehindThickSmokeIsNotSeen) {
 
 PETZVAL_EVERY_DRAWER(CoverageLaw);
 
+double difference_of_alpha(const Picture& a, const Picture& b) {
+    double squares = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        squares += std::pow(double(a.pixels()[i].a - b.pixels()[i].a), 2);
+    return std::sqrt(squares / double(a.size()));
+}
+
 // A disc alone in a nearer pane: the pane dims the disc by its alpha, and hides no part of it.
 TEST(Pane, HidesNoMoreThanItsAlpha) {
     constexpr int kSize = 64;
@@ -142,14 +149,48 @@ TEST(Pane, HidesNoMoreThanItsAlpha) {
             };
             const Picture truth = drawn("reference");
             for (const std::string engine : {"scatter", "gather", "sprites"}) {
-                const Picture image = drawn(engine);
-                double squares = 0;
-                for (std::size_t i = 0; i < image.size(); ++i)
-                    squares += std::pow(double(image.pixels()[i].a - truth.pixels()[i].a), 2);
-                EXPECT_LT(std::sqrt(squares / double(image.size())), 0.07)
+                EXPECT_LT(difference_of_alpha(drawn(engine), truth), 0.07)
                     << engine << ", alpha " << alpha << ", disc " << disc_px;
             }
         }
+}
+
+// The same as a deep picture, which states the disc and the pane in the same pixels; then a wall of half
+// coverage behind an opaque near disc.
+TEST(Pane, OfADeepPictureHidesNoMoreThanItsAlpha) {
+    constexpr int kSize = 64;
+    const auto surface = [](float grey, float alpha, float px) {
+        return DeepSample{{grey * alpha, grey * alpha, grey * alpha, alpha}, px, px};
+    };
+    struct Scene {
+        float pane, pane_px, disc, disc_px;
+    };
+    for (const Scene& scene : {Scene{0.01f, -12, 1, 0},
+                               {0.3f, -12, 1, 0},
+                               {0.3f, -12, 1, 6},
+                               {0.9f, 0, 1, 6},
+                               {1, -12, 0.5f, 0}}) {
+        const DeepPicture deep =
+            DeepPicture::made_of(kSize, kSize, [&](int x, int y, std::vector<DeepSample>& samples) {
+                const bool within = std::hypot(float(x) - 31.5f, float(y) - 31.5f) < 10;
+                if (scene.pane < 1 || within) samples.push_back(surface(0.2f, scene.pane, scene.pane_px));
+                if (scene.pane == 1 || within) samples.push_back(surface(0.8f, scene.disc, scene.disc_px));
+            });
+        Picture colour;
+        Plane coc_px;
+        flatten(deep, colour, coc_px);
+        const auto drawn = [&](const std::string& engine) {
+            DefocusJob job;
+            job.colour = colour, job.coc_px = coc_px, job.deep = &deep;
+            job.place = Place::whole(colour.rect());
+            job.engine = engine, job.pupil_points = 512;
+            return rendered(job);
+        };
+        const Picture truth = drawn("reference");
+        for (const std::string engine : {"scatter", "gather", "sprites"})
+            EXPECT_LT(difference_of_alpha(drawn(engine), truth), 0.02)
+                << engine << ", pane " << scene.pane << " at " << scene.pane_px;
+    }
 }
 
 }  // namespace

@@ -127,7 +127,7 @@ private:
             for (int x = grid.window.x0; x < grid.window.x1; ++x) {
                 const int u = std::clamp(x, 0, width - 1), v = std::clamp(y, 0, height - 1);
                 const bool outside = u != x || v != y, on = !outside || goes_on(x, y, width, height);
-                engine::for_each_sample(plan_.strip, *plan_.surfaces, u, v,
+                engine::for_each_sample(plan_.strip, *plan_.surfaces, plan_.sizes.farthest_px(), u, v,
                                         [&](Rgba colour, float coc_px, float covered, bool hidden) {
                                             if (std::abs(coc_px) > largest_px) return;
                                             plan_.sizes.hand_out(coc_px, hidden, [&](int turn, float share) {

@@ -271,16 +271,18 @@ private:
     // The light of a pixel for each turn of level 0, once.
     void add_pixel(int x, int y, std::vector<CellLight>& lights) const {
         const std::size_t begin = lights.size();
-        engine::for_each_sample(
-            plan_.strip, *plan_.surfaces, x, y, [&](Rgba colour, float coc_px, float covered, bool hidden) {
-                plan_.sizes.hand_out(coc_px, hidden, [&](int turn, float share) {
-                    if (plan_.sizes.level_of_turn(turn) != 0) return;
-                    auto known = std::find_if(lights.begin() + std::ptrdiff_t(begin), lights.end(),
-                                              [turn](const CellLight& l) { return l.entry == turn; });
-                    if (known == lights.end()) known = lights.insert(known, CellLight()), known->entry = turn;
-                    known->colour += share * colour, known->covered += share * covered;
-                });
-            });
+        engine::for_each_sample(plan_.strip, *plan_.surfaces, plan_.sizes.farthest_px(), x, y,
+                                [&](Rgba colour, float coc_px, float covered, bool hidden) {
+                                    plan_.sizes.hand_out(coc_px, hidden, [&](int turn, float share) {
+                                        if (plan_.sizes.level_of_turn(turn) != 0) return;
+                                        auto known = std::find_if(
+                                            lights.begin() + std::ptrdiff_t(begin), lights.end(),
+                                            [turn](const CellLight& l) { return l.entry == turn; });
+                                        if (known == lights.end())
+                                            known = lights.insert(known, CellLight()), known->entry = turn;
+                                        known->colour += share * colour, known->covered += share * covered;
+                                    });
+                                });
     }
 
     Context& context_;

@@ -90,18 +90,19 @@ private:
         const bool outside_x = u != x, outside_y = v != y, outside = outside_x || outside_y;
         const bool open =
             (!outside_x || input_.window.open_edges.right) && (!outside_y || input_.window.open_edges.bottom);
-        for_each_sample(input_, surfaces_, u, v, [&](Rgba colour, float coc_px, float covered, bool hidden) {
-            if (!may_hold_.contains(coc_px)) return;
-            const auto add = [&](int turn, float share) {
-                const int entry = sizes_.entry_at(turn, across_.level());
-                if (entry < 0) return;
-                CellLight& light = of_entry(lights_, begin, entry);
-                if (!outside) light.colour += share * weight * colour;
-                (outside && open ? light.beyond : light.covered) += share * weight * covered;
-            };
-            sizes_.hand_out(coc_px, hidden, add);
-            sizes_.hand_out_to_seam(coc_px, add);
-        });
+        for_each_sample(input_, surfaces_, sizes_.farthest_px(), u, v,
+                        [&](Rgba colour, float coc_px, float covered, bool hidden) {
+                            if (!may_hold_.contains(coc_px)) return;
+                            const auto add = [&](int turn, float share) {
+                                const int entry = sizes_.entry_at(turn, across_.level());
+                                if (entry < 0) return;
+                                CellLight& light = of_entry(lights_, begin, entry);
+                                if (!outside) light.colour += share * weight * colour;
+                                (outside && open ? light.beyond : light.covered) += share * weight * covered;
+                            };
+                            sizes_.hand_out(coc_px, hidden, add);
+                            sizes_.hand_out_to_seam(coc_px, add);
+                        });
     }
 
     const EngineView& input_;

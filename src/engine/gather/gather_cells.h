@@ -30,36 +30,46 @@ struct CellLight {
     int entry = 0;      // of RingSizes: a turn, or the skirts of one
 };
 
-// Emits each sample of a deep pixel, dimmed by the samples in front of it: by a translucent one always, by an
-// opaque one if it is so close in front that no ray passes it. The rest of a straight ray is emptiness.
-template <typename Emit>
-void for_each_deep_sample(const EngineView& input, int x, int y, Emit& emit) {
-    float open = 1, last_px = input.samples.coc_px(x, y), front_px = -1e30f;
-    for (const CocSample& s : input.samples.deep.at(x, y)) {
-        const float a = s.colour.a,
-                    share = a < laws::kOpaque || s.coc_px - front_px < laws::kNoRoomPx ? open : 1.0f;
-        if (share > 0) emit(share * s.colour, s.coc_px, s.colour == Rgba{} ? share : share * a);
-        open *= 1 - a;
-        last_px = front_px = s.coc_px;
+// Takes the samples of a deep pixel. Translucent ones dim what is behind them as on a straight ray, but an
+// opaque one only if it is so close behind that no ray passes their edges. Nothing shows so close behind an
+// opaque one. Unless an opaque sample ends the pixel, emptiness is behind everything. Behind a single
+// surface, as in the rim of an object, rays that pass its edge see all of it; mist of several samples dims
+// such rays as others. Behind an opaque surface, emptiness is a part of the last sample's lens.
+template <typename Take>
+void take_deep_samples(std::span<const CocSample> samples, float farthest_px, Take& take) {
+    constexpr float kNonePx = -1e30f, kShowsNothing = 1e-6f;
+    float open = 1, front_px = kNonePx, opaque_px = kNonePx;  // open: of the translucent samples
+    for (const CocSample& s : samples) {
+        const bool is_opaque = s.colour.a >= laws::kOpaque;
+        const auto is_close_to = [&s](float px) { return s.coc_px - px < laws::kNoRoomPx; };
+        const float share = is_opaque && !is_close_to(front_px) ? 1 : open;
+        if (!is_close_to(opaque_px)) take(share * s.colour, s.coc_px, share * s.colour.a);
+        front_px = s.coc_px;
+        if (is_opaque) opaque_px = s.coc_px;
+        if (!is_opaque) open *= 1 - s.colour.a;
     }
-    if (open > 0) emit(Rgba{}, last_px, open);
+    if (!samples.empty() && samples.back().colour.a >= laws::kOpaque) return;
+    const bool is_behind_opaque = opaque_px > kNonePx;
+    if (open > kShowsNothing)
+        take(Rgba{}, is_behind_opaque ? front_px : farthest_px, samples.size() == 1 ? 1 : open);
 }
 
 // The samples that a gather takes from one pixel, as emit(colour, coc_px, covered, hidden). `surfaces`: those
-// estimated behind opaque samples.
+// estimated behind opaque samples. farthest_px: the farthest radius of the picture.
 template <typename Emit>
-void for_each_sample(const EngineView& input, const FlatSurfaces& surfaces, int x, int y, const Emit& emit) {
+void for_each_sample(const EngineView& input, const FlatSurfaces& surfaces, float farthest_px, int x, int y,
+                     const Emit& emit) {
     SeenFirst take(emit);
     if (!input.samples.are_stated())
         return surfaces.visit_through_panes(input.samples.colour, input.samples.coc_px, x, y, take);
+    const std::span<const CocSample> samples = input.samples.deep.at(x, y);
     if (is_flat_pixel(input.samples.deep, x, y))
         return surfaces.visit(input.samples.colour, input.samples.coc_px, x, y, 1, take);
     if (input.samples.deep_dims_itself)
-        for_each_deep_sample(input, x, y, take);
+        take_deep_samples(samples, farthest_px, take);
     else
-        for (const CocSample& s : input.samples.deep.at(x, y))
-            take(s.colour, s.coc_px, s.colour == Rgba{} ? 1.0f : s.colour.a);
-    const EndOfDeepPixel end(input.samples.deep.at(x, y));
+        for (const CocSample& s : samples) take(s.colour, s.coc_px, s.colour == Rgba{} ? 1.0f : s.colour.a);
+    const EndOfDeepPixel end(samples);
     for (const Hidden& h : surfaces.hidden.at(x, y))
         if (end.is_before(h.coc_px)) take(h.colour, h.coc_px, h.share);
 }

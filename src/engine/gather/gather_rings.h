@@ -41,6 +41,7 @@ public:
     const RingRule& rule() const { return rule_; }
     int count() const { return int(radii_px_.size()); }
     float radius_px(int ring) const { return radii_px_[std::size_t(ring)]; }
+    float farthest_px() const { return radii_px_.back(); }
     int level(int ring) const { return levels_[std::size_t(ring)]; }  // cells are 2^level pixels wide
     int skirt_level(int ring) const { return skirt_levels_[std::size_t(ring)]; }  // 0: all is core
     int levels() const;                                                           // skirts included
