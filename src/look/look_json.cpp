@@ -3,6 +3,7 @@
 #include "petzval/names.h"
 
 #include "look/fields.h"
+#include "look/json_place.h"
 #include "look/limits.h"
 #include "look/look_link.h"
 
@@ -111,7 +112,7 @@ Result<Look> look_from_json(const std::string& text) {
     if (look::is_link(text)) return look::look_from_link(text);
     Repetition repetition;
     const Json json = Json::parse(text, std::ref(repetition), false);
-    if (json.is_discarded()) return no_look("is not JSON");
+    if (json.is_discarded()) return no_look("is not JSON: " + look::place_of_error(text));
     if (!json.is_object()) return no_look("is not a look: not an object");
     if (!repetition.found.empty()) return no_look("holds the key " + repetition.found + " twice");
     if (const Status known = check_version(json); !known) return known.error();

@@ -190,9 +190,13 @@ TEST(LookJson, WrongTypesAreRefusedByPath) {
 }
 
 TEST(LookJson, WhatIsNoLookIsRefused) {
-    EXPECT_EQ(refusal(""), "is not JSON");
-    EXPECT_EQ(refusal("{"), "is not JSON");
-    EXPECT_EQ(refusal("{\"petzval_look\": 1} x"), "is not JSON");
+    EXPECT_EQ(refusal(""), "is not JSON: line 1, column 1");
+    EXPECT_EQ(refusal("{"), "is not JSON: line 1, column 2");
+    EXPECT_EQ(refusal("{\"petzval_look\": 1} x"), "is not JSON: line 1, column 21");
+    EXPECT_EQ(refusal("{\"petzval_look\": 1,\n \"lens\": {\"blades\": 5,}}"),
+              "is not JSON: line 2, column 23");
+    EXPECT_EQ(refusal("{\"petzval_look\": 1, // mine\n}"), "is not JSON: line 1, column 21");
+    EXPECT_EQ(refusal("{\"petzval_look\": 1,\n\n\"seed\": NaN}"), "is not JSON: line 3, column 9");
     EXPECT_EQ(refusal("[]"), "is not a look: not an object");
     EXPECT_EQ(refusal("{}"), "is not a look: it has no \"petzval_look\": 1");
     EXPECT_EQ(refusal("{\"petzval_look\": 2}"),
