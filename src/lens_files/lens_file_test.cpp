@@ -167,6 +167,12 @@ TEST(LensFile, CodeVCurvatureModeGlassCodesAndPrivateGlassAreRead) {
     EXPECT_TRUE(warns(file, "defocused by -0.1"));
 }
 
+TEST(LensFile, CodeVRadiiWithoutTheirModeAreDoubted) {
+    const std::string surfaces = "EPD 5\nSO 0 1e11\nS 25 3 517.642\nSTO\nS -25 40\nSI 0 0\n";
+    EXPECT_TRUE(warns(read("LEN NEW\n" + surfaces), "put RDM"));
+    EXPECT_FALSE(warns(read("RDM;LEN\n" + surfaces), "put RDM"));
+}
+
 TEST(LensFile, CodeVUnitsHoldForWhatStandsBeforeThem) {
     const LensFile file = read(
         "RDM\nEPD 1\nYOB 0.5\nDIM I\nSO 0 10\nS 2 0.1 NBK7_SCHOTT\n STO\n CIR EDG 0.7\n"

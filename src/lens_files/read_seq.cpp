@@ -75,6 +75,7 @@ private:
     GlassFinder glasses_;
     Ignored ignored_;
     double mm_ = 1;
+    double steepest_ = 0;  // largest curvature that was stated as one, per unit of the file
     bool radius_mode_ = false, in_private_ = false, has_stop_ = false, seen_image_ = false;
     int stop_line_ = 0;
     bool vignetting_factors_ = false, zoom_ = false;
@@ -210,6 +211,7 @@ Status Reader::begin_surface(const Command& c) {
     edge_only_ = false;
     optics::Surface surface;
     surface.curvature_per_mm = *curvature / mm_;
+    if (!radius_mode_) steepest_ = std::max(steepest_, std::abs(*curvature));
     surface.thickness_mm = *thickness * mm_;
     if (c.words.size() > 3) {
         const auto behind = glass(c.words[3], c.line);
@@ -467,6 +469,10 @@ void Reader::set_field() {
 Status Reader::finish() {
     if (file_.lens.surfaces.empty()) return at_line(1, "no surface (S) is given");
     if (!has_stop_) file_.warnings.emplace_back("no surface is marked STO; the first is taken");
+    if (steepest_ > 1)
+        file_.warnings.emplace_back(
+            "without RDM, the first number of a surface is its curvature; if it is the "
+            "radius here, put RDM into the first line");
     if (file_.lens.stop >= int(file_.lens.surfaces.size()))
         return at_line(stop_line_, "STO names a surface that the lens does not have");
     if (const Status status = set_aperture(); !status) return status.error();

@@ -1,6 +1,6 @@
 // A table of surfaces as patents and books print it, pasted as text: one row per surface from the front.
 //
-//   [number] radius thickness [glass | nd [Vd]] [clear DIAMETER] [stop]
+//   [number] radius thickness [glass | nd [Vd]] [clear DIAMETER, or semi-diameter by the heading] [stop]
 //
 // Columns are parted by tabs, commas, semicolons, bars or blanks; a comma between digits in a line with tabs,
 // semicolons or bars, and without points, is a decimal comma. ∞, "inf", "plano" and 0 are flat; "air", 1
@@ -114,7 +114,8 @@ double stated(const std::vector<Line>& lines, int first_row, std::initializer_li
 
 class TableReader {
 public:
-    explicit TableReader(LensFile& file) : file_(file) {}
+    // semi: the last column holds semi-diameters.
+    TableReader(LensFile& file, bool semi) : file_(file), diameters_(semi ? 2 : 1) {}
 
     Status add(const Row& row) {
         if (file_.lens.surfaces.size() >= std::size_t(optics::kMostSurfaces))
@@ -134,7 +135,7 @@ public:
             const auto diameter = parse_number(row.words[at]);
             if (!diameter || !(*diameter > 0))
                 return at_line(row.line, quoted(row.words[at]) + " is neither a glass nor a diameter");
-            surface.clear_radius_mm = *diameter / 2;
+            surface.clear_radius_mm = *diameter * diameters_ / 2;
             ++at;
         }
         if (at < row.words.size())
@@ -195,9 +196,23 @@ private:
     }
 
     LensFile& file_;
+    double diameters_;  // per number of the last column
     GlassFinder glasses_;
     bool has_stop_ = false;
 };
+
+// True if the heading of the columns says semi-diameter or semi-aperture.
+bool heads_semi(const std::vector<Line>& lines, int first_row) {
+    for (const Line& line : lines) {
+        if (line.number >= first_row) break;
+        std::string letters;
+        for (const char c : upper_case(line.text))
+            if (c >= 'A' && c <= 'Z') letters += c;
+        if (letters.find("SEMIDIA") != std::string::npos || letters.find("SEMIAPE") != std::string::npos)
+            return true;
+    }
+    return false;
+}
 
 Status set_aperture(optics::Prescription& lens, double f_number) {
     const double stop_radius = lens.surfaces[std::size_t(lens.stop)].clear_radius_mm;
@@ -277,7 +292,9 @@ Result<LensFile> read_table(const std::string& text) {
     const int first_row = rows.front().line;
     if (const Status complete = check_between(lines, rows); !complete) return complete.error();
     drop_numbers(rows);
-    TableReader reader(file);
+    const bool semi = heads_semi(lines, first_row);
+    if (semi) file.warnings.emplace_back("the last column is taken as semi-diameters, as the heading says");
+    TableReader reader(file, semi);
     for (const Row& row : rows)
         if (const Status added = reader.add(row); !added) return added.error();
     reader.guess_stop();

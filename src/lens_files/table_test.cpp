@@ -88,6 +88,17 @@ TEST(Table, ObjectAndImageAreNoSurfaces) {
     EXPECT_EQ(read(with(text, "0 inf inf Object", "OBJ inf inf")).lens.surfaces.size(), 11u);
 }
 
+TEST(Table, TheHeadingSaysWhetherDiametersAreHalves) {
+    EXPECT_EQ(read(with(kTronnier, "Double Gauss", "Semi-wide lens")).lens.surfaces[0].clear_radius_mm, 12.6);
+    for (const char* semi : {"Semi-Diameter", "semi aperture"}) {
+        const LensFile file = read(with(kTronnier, "diameter", semi));
+        EXPECT_EQ(file.lens.surfaces[0].clear_radius_mm, 25.2);
+        EXPECT_NE(std::find_if(file.warnings.begin(), file.warnings.end(),
+                               [](const std::string& w) { return w.starts_with("the last column is"); }),
+                  file.warnings.end());
+    }
+}
+
 // Left out, surfaces 2 and 6 would make another lens.
 TEST(Table, ALineOfNumbersThatIsNoRowIsRefused) {
     EXPECT_NE(refusal(with(kTronnier, "2   84.83    0.12", "R2  84.83    0.12")).find("line 4: is not a row"),
