@@ -148,11 +148,31 @@ TEST(Pane, HidesNoMoreThanItsAlpha) {
                 return rendered(job);
             };
             const Picture truth = drawn("reference");
-            for (const std::string engine : {"scatter", "gather", "sprites"}) {
+            for (const std::string engine : {"scatter", "gather", "sprites", "gaussian"})
                 EXPECT_LT(difference_of_alpha(drawn(engine), truth), 0.07)
                     << engine << ", alpha " << alpha << ", disc " << disc_px;
-            }
         }
+}
+
+// Light without coverage hides nothing, so no light is estimated behind it: it would be in the picture.
+TEST(Pane, GlowBeforeGlowGainsNoLight) {
+    constexpr int kSize = 64;
+    for (const float focus_px : {0.0f, 6.0f}) {
+        Shot shot = flat(kSize, kSize, {0.4f, 0.4f, 0.4f, 0}, focus_px);
+        for (int y = 0; y < kSize; ++y)
+            for (int x = 0; x < kSize / 2; ++x) shot.coc_px(x, y) = focus_px - 12;
+        const auto light = [&](const std::string& engine) {
+            DefocusJob job = shot.job(engine);
+            job.pupil_points = 512;
+            const Picture image = rendered(job);
+            double sum = 0;
+            for (int y = 0; y < kSize; ++y)
+                for (int x = kSize / 4; x < 3 * kSize / 4; ++x) sum += double(image(x, y).r);
+            return sum;
+        };
+        for (const std::string engine : {"scatter", "gather", "sprites"})
+            EXPECT_LT(light(engine), 1.02 * light("reference")) << engine << ", focus " << focus_px;
+    }
 }
 
 // The same as a deep picture, which states the disc and the pane in the same pixels; then a wall of half

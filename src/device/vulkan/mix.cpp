@@ -185,7 +185,8 @@ private:
                 const auto first = std::uint32_t(extras.size());
                 std::uint32_t held = 0;
                 plan_.for_each_sample(x, y, [&](const LayeredSample& s) {
-                    if (s.place == LayeredSample::Seen) return colours.push_back(s.light);
+                    if (s.place == LayeredSample::Seen)
+                        return colours.push_back(s.light), void(values.back() = s.coc_px);
                     held |= s.place == LayeredSample::Rim ? 1 : 2;
                     extras.push_back({s.light, s.covered, s.coc_px, float(s.mix.lower), s.mix.upper_share});
                 });

@@ -74,7 +74,8 @@ struct GaussianPlan {
 
     BlurStack::Mix mix(float radius_px) const { return radius_px < 0 ? near(-radius_px) : far(radius_px); }
 
-    // Layered: the samples of a pixel from the nearest, as emit(LayeredSample).
+    // Layered: the samples of a pixel from the nearest, as emit(LayeredSample). A pane is a rim of emptiness
+    // that is as far away as the surface behind it.
     template <typename Emit>
     void for_each_sample(int x, int y, const Emit& emit) const {
         LayeredSample seen{LayeredSample::Seen, colour(x, y), 1, coc_px(x, y), mix(coc_px(x, y))};
@@ -83,6 +84,9 @@ struct GaussianPlan {
                 emit(
                     {LayeredSample::Rim, m->near_colour, m->near_share, m->near_coc_px, mix(m->near_coc_px)});
             seen.light = m->far_colour + m->far_light;
+        } else if (const auto pane = surfaces->pane_at(x, y, seen.light.a); pane.is * seen.light.a > 0) {
+            emit({LayeredSample::Rim, seen.light, 1 - pane.is * (1 - seen.light.a), seen.coc_px, seen.mix});
+            return emit({LayeredSample::Seen, Rgba{}, 1, pane.beyond_px, mix(pane.beyond_px)});
         }
         emit(seen);
         const Hidden* const behind = surfaces->most_hidden(x, y);

@@ -61,6 +61,26 @@ struct FlatSurfaces {
         });
         if (empty > 0) emit(Rgba{}, beyond_px, empty);
     }
+    // A pixel is a pane to the degree, 0…1, to which a surface behind it covers more than it does, or to
+    // which it is glow, which hides nothing. beyond_px: the radius of that surface.
+    struct Pane {
+        float is = 0, beyond_px = 0;
+    };
+    Pane pane_at(int x, int y, float alpha) const {
+        if (alpha >= laws::kOpaqueLayer) return {};
+        constexpr float kFades =
+            0.1f;  // of the open part; along a picture that fades, alpha may change so much
+        constexpr float kHidesNothing = 0.02f;  // alpha far below this
+        float most = -1;
+        Pane pane;
+        for (const Hidden& h : hidden.at(x, y))
+            if (h.share > 0 && h.colour.a / h.share > most)
+                most = h.colour.a / h.share, pane.beyond_px = h.coc_px;
+        if (most < 0) return {};
+        const float glows = 1 - alpha / kHidesNothing;
+        pane.is = std::clamp(std::max(glows, (most - alpha) / (1 - alpha) / kFades - 1), 0.0f, 1.0f);
+        return pane;
+    }
     // The same as visit(); what the emitted references change is changed here. Pixels may share hidden
     // surfaces.
     template <typename Emit>
@@ -100,23 +120,6 @@ struct FlatSurfaces {
     std::size_t bytes_of_layer(std::size_t pixels) const;
 
 private:
-    // A pixel is a pane to the degree, 0…1, to which a surface behind it covers more than it does. beyond_px:
-    // the radius of that surface.
-    struct Pane {
-        float is = 0, beyond_px = 0;
-    };
-    Pane pane_at(int x, int y, float alpha) const {
-        if (alpha >= laws::kOpaqueLayer) return {};
-        constexpr float kFades =
-            0.1f;  // of the open part; along a picture that fades, alpha may change so much
-        float most = 0;
-        Pane pane;
-        for (const Hidden& h : hidden.at(x, y))
-            if (h.share > 0 && h.colour.a / h.share > most)
-                most = h.colour.a / h.share, pane.beyond_px = h.coc_px;
-        pane.is = std::clamp((most - alpha) / (1 - alpha) / kFades - 1, 0.0f, 1.0f);
-        return pane;
-    }
     template <typename Self, typename Emit>
     static void visit(Self& self, View<const Rgba> colour, View<const float> coc_px, int x, int y,
                       float share_alone, Emit& emit) {
