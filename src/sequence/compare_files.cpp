@@ -8,7 +8,10 @@
 
 #include "records/record_json.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <string_view>
@@ -109,7 +112,22 @@ struct Pictures {
     Picture reference, test;
     Plane mask;
     std::size_t non_finite = 0;
+    bool have_alpha = false;  // both files do
 };
+
+// Numbers of a comparison are about colour; a matte that is wrong would go unnoticed. Empty if alpha agrees.
+std::string note_of_alpha(const Pictures& p) {
+    constexpr float kSame = 1.0f / 512;
+    float most = 0;
+    if (p.have_alpha)
+        for (std::size_t i = 0; i < p.reference.size(); ++i)
+            most = std::max(most, std::abs(p.reference.pixels()[i].a - p.test.pixels()[i].a));
+    if (most <= kSame) return "";
+    std::array<char, 120> text{};
+    std::snprintf(text.data(), text.size(),
+                  "alpha differs by up to %.3g; the numbers compare red, green and blue", double(most));
+    return text.data();
+}
 
 CompareFiles of_frame(CompareFiles files, int frame) {
     for (std::string* path : {&files.reference.path, &files.test, &files.mask, &files.heat_map})
@@ -134,6 +152,7 @@ Result<Pictures> read(const CompareFiles& files, const FrameLoopHost& host) {
         pictures.non_finite += shot->non_finite_colour;
         for (const std::string& line : shot->warnings) say(host, Say::Warning, line);
     }
+    pictures.have_alpha = first->has_alpha && second->has_alpha;
     pictures.reference = over_display_window(first->colour, first->place);
     pictures.test = over_display_window(second->colour, second->place);
     if (files.mask.empty()) return pictures;
@@ -149,8 +168,9 @@ Result<ComparedFiles> compare_files(const CompareFiles& files, const FrameLoopHo
     const Stopwatch watch;
     const auto pictures = read(files, host);
     if (!pictures) return pictures.error();
-    const auto& [reference, test, mask, non_finite] = *pictures;
+    const auto& [reference, test, mask, non_finite, have_alpha] = *pictures;
     if (Status same = check_sizes(files, reference, test, mask); !same) return same.error();
+    if (const std::string note = note_of_alpha(*pictures); !note.empty()) say(host, Say::Warning, note);
     const double read_s = watch.seconds();
     const CompareSettings settings{.exposure = files.exposure, .mask = mask.view()};
     const auto result = compare(reference.view(), test.view(), settings);

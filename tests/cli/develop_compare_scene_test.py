@@ -110,6 +110,14 @@ class Compare(CommandLineTest):
         self.refuse(2, "scene", "make", "post", "-o", "q.exr", "--frames", "20-21", *small, says=["####"])
         self.refuse(2, "scene", "make", "post", "-o", "q.##.exr", *small, says=["--frames"])
 
+    def test_alpha_that_differs_is_warned_of(self):
+        for name, alpha in (("one.exr", 1), ("half.exr", 0.5), ("near.exr", 0.999)):
+            write_exr(self.path(name), picture(32, 24, 0.5, None, alpha))
+        outcome = self.succeed("compare", "one.exr", "half.exr")
+        self.assertIn("warning: alpha differs by up to 0.5; the numbers compare red, green and blue", outcome.err)
+        for same in ("near.exr", "a.exr"):
+            self.assertNotIn("alpha", self.succeed("compare", "one.exr", same).err)
+
     def test_png_and_exr_compare_in_linear_light(self):
         code = round(255 * srgb(0.5))
         write_png(self.path("a.png"), [[code] * 96] * 24)
