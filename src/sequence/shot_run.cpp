@@ -65,6 +65,18 @@ Result<std::optional<Track>> read_track(const ShotRunSettings& settings) {
     return track;
 }
 
+// A track of other frame numbers than the shot's changes nothing over the shot. Empty if a key lies among
+// them.
+std::string note_of_keys_elsewhere(const Track& track, const std::vector<int>& frames) {
+    if (frames.empty() || track.first() == track.last()) return "";
+    const auto [first, last] = std::minmax_element(frames.begin(), frames.end());
+    if (*last >= track.first() && *first <= track.last()) return "";
+    const int nearest = *last < track.first() ? track.first() : track.last();
+    return "the keys of the track are frames " + std::to_string(track.first()) + " to " +
+           std::to_string(track.last()) + "; all frames of this run have the values of frame " +
+           std::to_string(nearest);
+}
+
 }  // namespace
 
 struct ShotRun::State {
@@ -117,6 +129,8 @@ Status ShotRun::State::begin(const std::vector<int>& frames) {
     if (track) {
         const Status measured = measure_focus(*track, frames, settings.source, {.cancelled = host.cancelled});
         if (!measured) return measured;
+        const std::string note = note_of_keys_elsewhere(*track, frames);
+        if (!note.empty() && host.say) host.say(Say::Note, note);
         if (settings.focus_speed) track->limit_focus_speed(*settings.focus_speed);
     }
     if (settings.temporal == 0 || frames.empty()) return Done{};

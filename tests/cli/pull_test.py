@@ -53,6 +53,14 @@ class Pulls(CommandLineTest):
         self.assertIn("frame 4: the focus jumps from 3 to 8 m, beyond the depth of field", records[3]["warnings"][0])
         self.assertEqual(records[2]["warnings"], [])
 
+    def test_a_track_of_other_frames_is_told(self):
+        distances, said, _ = self.pull("--frames", "1-5", track="frame,focus\n1001,2\n1005,8\n")
+        self.assertEqual(distances, [2] * 5)
+        self.assertIn("the keys of the track are frames 1001 to 1005; all frames of this run have the values of frame "
+                      "1001", said)
+        for keys in ("5,2\n1005,8", "1001,2"):  # a key in the run; one value for all frames
+            self.assertNotIn("keys of the track", self.pull("--frames", "1-5", track="frame,focus\n%s\n" % keys)[1])
+
     def test_a_rack_takes_pixels_and_distances(self):
         self.even(self.pull("--rack", "1:5,10", "5:45,10")[0])
         self.even(self.pull("--rack", "1:200cm", "5:45,10")[0])
