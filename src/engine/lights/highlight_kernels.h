@@ -1,4 +1,4 @@
-// Complete kernels of highlights: of pixels and of squares of them, at full resolution.
+// Complete kernels of highlights, on pixels: of one pixel and of squares of them.
 #pragma once
 
 #include "device/kernels.h"
@@ -8,7 +8,7 @@
 #include "kernel/keep/bank.h"
 #include "kernel/keep/kernel_cache.h"
 
-#include <array>
+#include <deque>
 #include <vector>
 
 namespace petzval::engine {
@@ -16,8 +16,8 @@ namespace petzval::engine {
 // The parts of a highlight's kernel that are bright enough to be seen, and must be precise.
 enum class Seen : int { Nothing, Disc, DiscAndRim };
 
-// Kernels of highlights. An ask's piece holds the size of the square and its Seen, or the part of a pixel;
-// step and zone are those of the bank of points of that precision.
+// Kernels of highlights. An ask's piece holds the size of the square and the bank of points, or the part of a
+// pixel; step and zone are those of that bank.
 class HighlightKernels final : public device::KernelSource, public device::Memory::Thing {
 public:
     explicit HighlightKernels(const EngineView& input);
@@ -28,10 +28,12 @@ public:
 
 private:
     kernel::PointSpread of_part(const device::KernelAsk& ask) const;
+    std::size_t bank_for(float radius_px, Seen seen) const;
+    std::shared_ptr<const kernel::PointSpread> of_point(const device::KernelAsk& ask) const;
 
-    const kernel::LensModel& lens_;
+    LensOnPicture lens_;
     bool knows_parts_;
-    std::array<kernel::KernelBank, 3> points_;                // by Seen
+    std::deque<kernel::KernelBank> points_;                   // by Seen; then of Nothing, on levels from 1 on
     mutable kernel::KernelCache<device::KernelAsk> squares_;  // of more than one pixel, or of a part of one
 };
 
