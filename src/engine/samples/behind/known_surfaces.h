@@ -57,6 +57,17 @@ public:
         const Mixture* m = mixtures_.at(x, y);
         return m ? m->far_colour : picture_.dim(x, y);
     }
+    // Scene-linear luminance from which light counts as bright; 0: none does.
+    float white() const { return white_; }
+    // The colour, no brighter than white.
+    Rgba dim_colour(int x, int y) const {
+        Rgba c = colour(x, y);
+        const float light = luminance(c), share = white_ > 0 && light > white_ ? white_ / light : 1;
+        c.r *= share;
+        c.g *= share;
+        c.b *= share;
+        return c;
+    }
     bool shows(int x, int y, float coc_px) const {
         return radii_.rect().contains(x, y) && std::abs(radii_(x, y) - coc_px) < completion_model.step_px;
     }

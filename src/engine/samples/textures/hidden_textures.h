@@ -69,7 +69,14 @@ private:
     const Tile& tile_of(int block) const { return tiles_[std::size_t(block / kTileBlocks)]; }
     float detail(int x, int y) const;
     bool in_sight(const Rect& block) const;
-    bool sharp(int x, int y) const { return shows_sharp(known_, x, y); }
+    bool sharp(int x, int y) const { return shows_sharp(known_, x, y) && !is_lamp(x, y); }
+    // Textures do not contain lamps: between strands, a lamp would be most of the contrast, and continue
+    // wherever a repeat meets it.
+    bool is_lamp(int x, int y) const {
+        constexpr float kLamp = 2;  // times the mean light around; a sky among leaves is less
+        const float light = luminance(known_.colour(x, y));
+        return known_.white() > 0 && light > known_.white() && light > kLamp * luminance(mean(x, y));
+    }
     bool shows(int x, int y, float coc_px) const {
         return known_.radii().rect().contains(x, y) &&
                std::abs(known_.radii()(x, y) - coc_px) < completion_model.step_px && sharp(x, y);

@@ -1,5 +1,6 @@
 // A wall in focus behind a bar that is not.
 #include "base/parallel.h"
+#include "engine/samples/behind/known_surfaces.h"
 #include "engine/samples/hidden.h"
 
 #include <functional>
@@ -22,7 +23,7 @@ struct Errors {
 
 using Wall = std::function<float(int, int)>;
 
-HiddenLayers filled(const Wall& wall, float wall_px, bool textures) {
+HiddenLayers filled(const Wall& wall, float wall_px, bool textures, float white = 0) {
     Picture colour(kWidth, kHeight);
     Plane coc(kWidth, kHeight, wall_px);
     for (int y = 0; y < kHeight; ++y)
@@ -36,7 +37,7 @@ HiddenLayers filled(const Wall& wall, float wall_px, bool textures) {
     const Mixtures mixed = unmix_silhouettes(picture, coc, connected, one_thread());
     FillRule rule;
     rule.textures = textures;
-    return fill_hidden(picture, coc, connected, mixed, kBarPx, wall_px, rule, one_thread());
+    return fill_hidden(picture, coc, connected, mixed, kBarPx, wall_px, rule, white, one_thread());
 }
 
 Errors errors(const Wall& wall, float wall_px = 0, bool textures = true) {
@@ -78,6 +79,14 @@ TEST(HiddenTextures, RepeatsOfATextureMoveNoMarksBesideIt) {
             error = std::max(error, std::abs(double(hidden.at(x, y).front().colour.g) - 0.5));
         }
     EXPECT_LT(error, 0.1);  // 0.19 if the bricks' repeats hold everywhere
+}
+
+TEST(HiddenTextures, ALampBesideTheBarIsNoBrick) {
+    const auto lit = [](int x, int y) { return Rect{78, 46, 82, 50}.contains(x, y) ? 9.0f : bricks(x, y); };
+    const HiddenLayers hidden = filled(lit, 0, true, 1);
+    for (int y = 16; y < kHeight - 16; ++y)
+        for (int x = kLeft + 5; x < kRight; ++x)
+            EXPECT_LT(hidden.at(x, y).front().colour.g, 1) << x << ", " << y;
 }
 
 TEST(HiddenTextures, ShadingGoesOnToo) {

@@ -17,7 +17,7 @@ SharpMeans::SharpMeans(const KnownSurfaces& known, const std::function<bool(cons
             if (!needed(block)) continue;
             for (int y = block.y0; y < block.y1; ++y)
                 for (int x = block.x0; x < block.x1; ++x)
-                    if (shows_sharp(known, x, y)) own(u, v).add({known.colour(x, y), 1}, 1);
+                    if (shows_sharp(known, x, y)) own(u, v).add({known.dim_colour(x, y), 1}, 1);
         }
     });
     means_ = Image<Sum>(own.width(), own.height());

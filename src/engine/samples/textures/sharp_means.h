@@ -23,7 +23,7 @@ public:
     SharpMeans(const KnownSurfaces& known, const std::function<bool(const Rect&)>& needed, Workers& workers);
 
     bool known_at(int x, int y) const { return means_(x / kBlock, y / kBlock).count > 0; }
-    // Mean light around the middle of a pixel that shows a sharp surface.
+    // Mean light around the middle of a pixel that shows a sharp surface; light above white counts as white.
     Rgba at(float x, float y) const;
 
 private:
