@@ -16,7 +16,7 @@ constexpr int kSizes[] = {1, 2, 4, kLargestSquare};
 constexpr float kPartsFromPx = 0.25f, kPartsUpToPx = 8;
 // Pixels of a wide disc are not seen if its light is dim: its kernel is made on cells, of which its radius
 // has this many to twice as many, and enlarged. To make it costs hardly more, however wide it is.
-constexpr float kLeastRadiusCells = 60;
+constexpr float kLeastRadiusCells = 32;
 constexpr int kSeens = 3, kMostLevels = 4;
 constexpr int kBanks = kSeens + kMostLevels;
 int level_of_bank(int bank) { return std::max(0, bank - (kSeens - 1)); }
