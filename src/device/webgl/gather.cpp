@@ -38,7 +38,7 @@ private:
     }
     void add_pixel(int x, int y) {
         const std::uint32_t place = place_of(x, y);
-        engine::for_each_sample(plan_.strip, *plan_.surfaces, x, y,
+        engine::for_each_sample(plan_.strip, *plan_.surfaces, plan_.sizes.farthest_px(), x, y,
                                 [&](Rgba colour, float coc_px, float covered, bool hidden) {
                                     plan_.sizes.hand_out(coc_px, hidden, [&](int turn, float share) {
                                         if (plan_.sizes.level_of_turn(turn) != 0) return;
