@@ -1,8 +1,8 @@
 #include "engine/samples/complete.h"
 
 #include "base/parallel.h"
-#include "engine/samples/connectivity.h"
 #include "engine/samples/sample_source.h"
+#include "engine/samples/silhouettes/connectivity.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/samples/complete.h"
-#include "engine/samples/connectivity.h"
+#include "engine/samples/silhouettes/connectivity.h"
 
 namespace petzval::engine {
 

@@ -2,10 +2,10 @@
 
 #include "base/parallel.h"
 #include "engine/samples/behind/known_surfaces.h"
-#include "engine/samples/connectivity.h"
 #include "engine/samples/kept_surfaces.h"
 #include "engine/samples/layer_shares.h"
 #include "engine/samples/outlines/hidden_outlines.h"
+#include "engine/samples/silhouettes/connectivity.h"
 #include "engine/samples/white.h"
 
 #include <algorithm>

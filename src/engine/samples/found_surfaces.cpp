@@ -2,7 +2,7 @@
 
 #include "engine/samples/behind/known_surfaces.h"
 #include "engine/samples/behind/plate.h"
-#include "engine/samples/connectivity.h"
+#include "engine/samples/silhouettes/connectivity.h"
 
 namespace petzval::engine {
 

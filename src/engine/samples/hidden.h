@@ -6,8 +6,8 @@
 #include "petzval/workers.h"
 
 #include "engine/samples/completion_model.h"
-#include "engine/samples/connectivity.h"
 #include "engine/samples/dim.h"
+#include "engine/samples/silhouettes/connectivity.h"
 #include "engine/samples/silhouettes/two_surfaces.h"
 #include "engine/samples/sparse_rows.h"
 #include "engine/samples/white.h"

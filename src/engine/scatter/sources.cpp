@@ -1,7 +1,7 @@
 #include "engine/scatter/sources.h"
 
 #include "base/parallel.h"
-#include "engine/samples/connectivity.h"
+#include "engine/samples/silhouettes/connectivity.h"
 #include "engine/scatter/scatter_kernels.h"
 #include "laws/surfaces.h"
 

@@ -15,7 +15,7 @@ namespace petzval::engine {
 
 // Sources of all levels, 0 first. `samples` are complete (engine/samples/complete.h), and each row is asked
 // for once, after which they are let go; coc_px is what the picture shows, and `connected` which of its
-// pixels are one surface (engine/samples/connectivity.h), for the slopes.
+// pixels are one surface (engine/samples/silhouettes/connectivity.h), for the slopes.
 std::vector<SourceArray> make_sources(SampleSource samples, View<const float> coc_px,
                                       View<const unsigned char> connected, const OpenEdges& open,
                                       const LevelRule& rule, const ScatterKernels& kernels, Workers& workers);

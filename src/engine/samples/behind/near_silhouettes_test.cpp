@@ -3,7 +3,7 @@
 #include "base/parallel.h"
 #include "engine/samples/behind/known_surfaces.h"
 #include "engine/samples/behind/search.h"
-#include "engine/samples/connectivity.h"
+#include "engine/samples/silhouettes/connectivity.h"
 
 #include <cmath>
 #include <random>

@@ -3,8 +3,8 @@
 
 #include "engine/samples/behind/known_surfaces.h"
 #include "engine/samples/behind/near_silhouettes.h"
-#include "engine/samples/connectivity.h"
 #include "engine/samples/hidden.h"
+#include "engine/samples/silhouettes/connectivity.h"
 
 #include <array>
 #include <vector>

@@ -1,8 +1,8 @@
 #include "engine/samples/behind/structure.h"
 
 #include "base/parallel.h"
-#include "engine/samples/connectivity.h"
 #include "engine/samples/hidden.h"
+#include "engine/samples/silhouettes/connectivity.h"
 
 #include <cmath>
 #include <functional>

@@ -1,7 +1,7 @@
 #include "engine/samples/silhouettes/count.h"
 
 #include "base/parallel.h"
-#include "engine/samples/connectivity.h"
+#include "engine/samples/silhouettes/connectivity.h"
 #include "image/two_sweeps.h"
 
 #include <algorithm>

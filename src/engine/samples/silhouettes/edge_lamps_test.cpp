@@ -1,6 +1,6 @@
 #include "engine/samples/silhouettes/edge_lamps.h"
 
-#include "engine/samples/connectivity.h"
+#include "engine/samples/silhouettes/connectivity.h"
 #include "engine/samples/silhouettes/touching.h"
 
 #include <cstdlib>

@@ -1,7 +1,7 @@
 #include "engine/samples/silhouettes/touching.h"
 
 #include "base/parallel.h"
-#include "engine/samples/connectivity.h"
+#include "engine/samples/silhouettes/connectivity.h"
 
 namespace petzval::engine {
 namespace {

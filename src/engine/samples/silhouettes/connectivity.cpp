@@ -1,4 +1,4 @@
-#include "engine/samples/connectivity.h"
+#include "engine/samples/silhouettes/connectivity.h"
 
 #include "base/parallel.h"
 
