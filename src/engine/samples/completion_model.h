@@ -6,8 +6,6 @@
 
 #include "laws/surfaces.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -19,12 +17,9 @@ struct CompletionModel {
 #define PETZVAL_NUMBER(name, value, ...) float name = value;
 #include "engine/samples/completion_numbers.inc"
 #undef PETZVAL_NUMBER
-    // Neighbouring pixels that differ by more show two surfaces. In focus, a pixel that shows both is visible
-    // as a fringe from 0.6 of a step on; the more the sharper of the two is blurred, the less.
-    float step_between_px(float coc_a_px, float coc_b_px) const {
-        const float sharper_px = std::min(std::abs(coc_a_px), std::abs(coc_b_px));
-        return std::min(step_px, 0.6f * step_px + 2 * step_share * sharper_px);
-    }
+    // Neighbouring pixels that differ by more show two surfaces: in focus, a pixel that shows both is visible
+    // as a fringe.
+    float between_px() const { return 0.6f * step_px; }
     // Two pixels apart from each other that differ by more show two surfaces.
     float apart_px() const { return 2 * step_px; }
 };

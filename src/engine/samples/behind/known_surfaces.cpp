@@ -46,29 +46,10 @@ void KnownSurfaces::add_patches(Workers& workers) {
 
 Rgba KnownSurfaces::going_on(Place from, Direction outwards, float distance_px,
                              const CutEdges::Around& edges) const {
-    const Rgba own = seen_through_blur(from, outwards, edges);
+    const Rgba own = colour(from.x, from.y);
     if (white_ <= 0) return own;
-    const float light = std::max(light_of(own), light_of(colour(from.x, from.y)));
-    const float falls = above(light, completion_model.light * white_);
+    const float falls = above(light_of(own), completion_model.light * white_);
     return falls > 0 ? own * (1 - falls) + falls * shown(from, outwards, distance_px, own, edges) : own;
-}
-
-// The blur hides detail: the mean over a part of that blur, across and farther outwards.
-Rgba KnownSurfaces::seen_through_blur(Place at, Direction outwards, const CutEdges::Around& edges) const {
-    const float part_px = completion_model.blur_mean * std::abs(at.coc_px);
-    Rgba sum = colour(at.x, at.y);
-    float total = 1;
-    for (const float out : {0.0f, part_px})
-        for (const float aside : {-part_px, 0.0f, part_px}) {
-            const int dx = nearest_pixel(out * outwards.x - aside * outwards.y),
-                      dy = nearest_pixel(out * outwards.y + aside * outwards.x);
-            const int x = at.x + dx, y = at.y + dy;
-            if ((dx == 0 && dy == 0) || !shows(x, y, at.coc_px)) continue;
-            const float weight = edges.passes({x, y}, at.coc_px);
-            sum += weight * colour(x, y);
-            total += weight;
-        }
-    return sum * (1 / total);
 }
 
 // The mean of the visible surface at r distances, with density 1/(1 + r)^2: a thing visible for a width w

@@ -11,12 +11,9 @@
 
 namespace petzval::engine {
 
-// The largest difference of radii between two pixels, some distance apart, that may show one surface.
-inline float surface_step_px(float coc_a_px, float coc_b_px) {
-    return completion_model.apart_px() + completion_model.step_share * std::abs(coc_a_px + coc_b_px);
-}
+// True if two pixels, some distance apart, may show one surface.
 inline bool one_surface(float coc_a_px, float coc_b_px) {
-    return std::abs(coc_a_px - coc_b_px) < surface_step_px(coc_a_px, coc_b_px);
+    return std::abs(coc_a_px - coc_b_px) < completion_model.apart_px();
 }
 
 // Radii behind the threshold of a silhouette that show the farther of the two surfaces that meet there.
@@ -30,7 +27,7 @@ struct FarSide {
 // eighth of the step at this silhouette, of which own_px lies half behind the threshold.
 inline FarSide far_side(float own_px, float threshold_px) {
     if (own_px <= threshold_px) return {threshold_px, std::numeric_limits<float>::infinity()};
-    const float step_px = completion_model.step_between_px(own_px, own_px);
+    const float step_px = completion_model.between_px();
     const float slope_px = completion_model.third_surface * (own_px - threshold_px);
     return {std::max(threshold_px, own_px - step_px), own_px + std::min(step_px, slope_px)};
 }
@@ -94,7 +91,6 @@ public:
 
 private:
     void add_patches(Workers& workers);
-    Rgba seen_through_blur(Place at, Direction outwards, const CutEdges::Around& edges) const;
     Rgba shown(Place from, Direction outwards, float distance_px, Rgba otherwise,
                const CutEdges::Around& edges) const;
 

@@ -28,24 +28,6 @@ float light_behind(int columns_of_sign, float distance_px, float white = 1) {
 
 const float kWhole = luminance({kSign, 0.5f * kSign, kSign, 1});
 
-// Colour that continues from the last column of a wall striped along the edge, at the blur coc_px.
-float stripes_behind(float coc_px) {
-    Picture colour(kWidth, kHeight, {kWall, kWall, kWall, 1});
-    for (int y = 0; y < kHeight; ++y)
-        for (int x = kEdge - 1; x >= 0; x -= 4) colour(x, y) = colour(x - 1, y) = 2 * colour(x, y);
-    const Plane coc(kWidth, kHeight, coc_px);
-    const Mixtures none;
-    const LitPicture picture{colour, {}};
-    const KnownSurfaces known(picture, coc, none, 1, one_thread());
-    return luminance(
-        known.going_on({kEdge - 1, kHeight / 2, coc_px}, kOutwards, 4, known.edges_around(0, 0)));
-}
-
-TEST(KnownSurfaces, OfDetailThatABlurHidesTheMeanGoesOn) {
-    EXPECT_FLOAT_EQ(stripes_behind(0), 2 * kWall) << "in focus it shows";
-    EXPECT_NEAR(stripes_behind(8), 1.5f * kWall, 0.1f * kWall);
-}
-
 TEST(KnownSurfaces, AWallGoesOnHoweverFar) {
     for (const float distance : {1.0f, 8.0f, 30.0f}) EXPECT_FLOAT_EQ(light_behind(0, distance), kWall);
 }

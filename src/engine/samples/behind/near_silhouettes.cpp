@@ -38,7 +38,7 @@ void NearSilhouettes::add(Block& block, const Behind& behind) {
 void NearSilhouettes::spread(const Plane& nearest) {
     two_sweeps(blocks_.width(), blocks_.height(), [&](int x, int y, int dx, int dy) {
         for (const Behind& b : blocks_(x + dx, y + dy))
-            if (b.coc_px > nearest(x, y) + completion_model.step_px)
+            if (b.coc_px > nearest(x, y) + completion_model.between_px())
                 add(blocks_(x, y), {b.beyond_px + chamfer_step(dx, dy) * kBlock, b.coc_px});
     });
 }

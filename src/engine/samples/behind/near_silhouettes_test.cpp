@@ -41,7 +41,7 @@ TEST(NearSilhouettes, MissNoPixelWhereASearchFindsASurface) {
         const auto connected = connections(coc, one_thread());
         const Mixtures mixtures = unmix_silhouettes(picture, coc, connected, one_thread());
         const KnownSurfaces known(picture, coc, mixtures, 0, one_thread());
-        const SurfaceSearch search(known, coc, mixtures, -kNearestPx, kFarthestPx, one_thread());
+        const SurfaceSearch search(known, coc, connected, mixtures, -kNearestPx, kFarthestPx, one_thread());
         const NearSilhouettes near(coc, mixtures, one_thread());
         for (int y = 0; y < kSide; ++y)
             for (int x = 0; x < kSide; ++x) {

@@ -10,7 +10,7 @@ namespace petzval::engine {
 
 bool on_one_plane(const Found& a, const Found& b) {
     const float x = float(b.x - a.x), y = float(b.y - a.y), step = b.coc_px - a.coc_px;
-    const float most = completion_model.step_px + completion_model.step_share * std::abs(a.coc_px + b.coc_px);
+    const float most = completion_model.step_px;
     return std::abs(a.slope.x * x + a.slope.y * y - step) < most &&
            std::abs(b.slope.x * x + b.slope.y * y - step) < most;
 }

@@ -10,9 +10,10 @@
 
 namespace petzval::engine {
 
-SurfaceSearch::SurfaceSearch(const KnownSurfaces& known, View<const float> coc, const Mixtures& mixtures,
-                             float nearest_px, float farthest_px, Workers& workers)
-    : known_(known), coc_(coc), farthest_(farthest_px) {
+SurfaceSearch::SurfaceSearch(const KnownSurfaces& known, View<const float> coc,
+                             View<const unsigned char> connected, const Mixtures& mixtures, float nearest_px,
+                             float farthest_px, Workers& workers)
+    : known_(known), coc_(coc), connected_(connected), farthest_(farthest_px) {
     measure_blocks(mixtures, workers);
     lay_paths(std::max(reach_px(nearest_px, farthest_px), completion_model.outline_search_px));
 }
@@ -50,9 +51,29 @@ void SurfaceSearch::lay_paths(float longest_px) {
             const int dx = nearest_pixel(t * path.direction.x), dy = nearest_pixel(t * path.direction.y);
             path.steps.push_back({t, dx, dy, std::ptrdiff_t(dy) * coc_.width() + dx});
         }
+        for (int t = 0; t <= int(longest_px); ++t)
+            path.pixels.push_back(
+                {nearest_pixel(float(t) * path.direction.x), nearest_pixel(float(t) * path.direction.y)});
         for (std::size_t i = 0; i < path.steps.size(); ++i)
             while (float(path.at_distance.size()) <= path.steps[i].t) path.at_distance.push_back(i);
     }
+}
+
+// True if a silhouette crosses the path from the pixel (x, y) to its pixel at distance t. What curves away,
+// such as a ball, is not behind itself.
+bool SurfaceSearch::crosses_silhouette(const Path& path, int x, int y, float t) const {
+    for (int i = int(t); i > 0; --i) {
+        const auto [u, v] = path.pixels[std::size_t(i)];
+        const int free = blocks_((x + u) / kBlock, (y + v) / kBlock).free;
+        if (free > 1) {
+            i -= free - 1;
+            continue;
+        }
+        const auto [back_u, back_v] = path.pixels[std::size_t(i) - 1];
+        if (back_u != u && !(connected_(x + u, y + v) & (back_u > u ? kRight : kLeft))) return true;
+        if (back_v != v && !(connected_(x + back_u, y + v) & (back_v > v ? kDown : kUp))) return true;
+    }
+    return false;
 }
 
 std::array<Found, kHits> SurfaceSearch::look(const Start& from, std::size_t k) const {
@@ -73,7 +94,8 @@ std::array<Found, kHits> SurfaceSearch::look(const Start& from, std::size_t k) c
         // (A block that lies in front completely is skipped without reading its pixels, which saves
         // cache.)
         const float c = block.farthest > behind ? start[step->offset] : behind;
-        if (c > behind && c > own + step->t * own_per_px + completion_model.step_between_px(own, c)) {
+        if (c > behind && c > own + step->t * own_per_px + completion_model.between_px() &&
+            (n > 0 || crosses_silhouette(path, x, y, step->t))) {
             hits[n++] = {true, int(u), int(v), c, step->t, known_.slope(int(u), int(v))};
             // (A surface in front of focus hides another one, past whose edges the lens looks in turn.)
             longest = std::min(longest, step->t + std::max(0.0f, -c));

@@ -28,8 +28,8 @@ using Hits = std::array<std::array<Found, kHits>, kDirections>;
 class SurfaceSearch {
 public:
     // Borrows all but the last. nearest_px, farthest_px: radii of the frame.
-    SurfaceSearch(const KnownSurfaces& known, View<const float> coc_px, const Mixtures& mixtures,
-                  float nearest_px, float farthest_px, Workers& workers);
+    SurfaceSearch(const KnownSurfaces& known, View<const float> coc_px, View<const unsigned char> connected,
+                  const Mixtures& mixtures, float nearest_px, float farthest_px, Workers& workers);
 
     // Largest distance from a pixel at which a ray past its surface reaches the surface behind it: a point of
     // the lens moves the two against each other by the difference of their radii.
@@ -58,7 +58,8 @@ private:
     struct Path {
         Direction direction;
         std::vector<Step> steps;
-        std::vector<std::size_t> at_distance;  // first step that is at least this many pixels away
+        std::vector<std::array<int, 2>> pixels;  // x and y at each whole distance
+        std::vector<std::size_t> at_distance;    // first step that is at least this many pixels away
     };
     struct Block {
         float farthest = -1e30f;  // farthest known radius in the block
@@ -66,9 +67,11 @@ private:
     };
     void measure_blocks(const Mixtures& mixtures, Workers& workers);
     void lay_paths(float longest_px);
+    bool crosses_silhouette(const Path& path, int x, int y, float t) const;
 
     const KnownSurfaces& known_;
     View<const float> coc_;
+    View<const unsigned char> connected_;
     Image<Block> blocks_;
     std::array<Path, kDirections> paths_;
     float farthest_;

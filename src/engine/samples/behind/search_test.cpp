@@ -1,6 +1,8 @@
 #include "base/parallel.h"
 #include "engine/samples/hidden.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace petzval::engine {
@@ -61,6 +63,28 @@ TEST(SurfaceSearch, AWallIsFoundBehindAWireThatMeetsAPost) {
             EXPECT_NEAR(behind.back().coc_px, kWallPx, 0.1f) << x << ", " << y;
             EXPECT_NEAR(behind.back().colour.g, kBoxColour.g, 0.05f) << x << ", " << y;
         }
+}
+
+TEST(SurfaceSearch, ABallIsNotBehindItself) {
+    constexpr float kBallPx = -60, kLimbPx = -52, kWallPx = 1, kMiddle = 64, kRadius = 50;
+    Picture colour(kWidth, kHeight, kBoxColour);
+    Plane coc(kWidth, kHeight, kWallPx);
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+            const float r = std::hypot(float(x) + 0.5f - kMiddle, float(y) + 0.5f - kMiddle) / kRadius;
+            if (r >= 1) continue;
+            colour(x, y) = kFloorColour;
+            coc(x, y) = kLimbPx + (kBallPx - kLimbPx) * std::sqrt(1 - r * r);
+        }
+    const HiddenLayers hidden = filled(coc, colour, kBallPx);
+    int walls = 0;
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x)
+            for (const Hidden& h : hidden.at(x, y)) {
+                EXPECT_NEAR(h.coc_px, kWallPx, 0.1f) << x << ", " << y;
+                ++walls;
+            }
+    EXPECT_GT(walls, 5000) << "the wall is found behind the whole ball";
 }
 
 }  // namespace

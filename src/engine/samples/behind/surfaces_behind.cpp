@@ -54,7 +54,7 @@ SurfacesBehind::SurfacesBehind(const LitPicture& picture, View<const float> coc_
       connected_(connected),
       mixtures_(mixtures),
       near_silhouettes_(coc_px, mixtures, workers),
-      search_(known_, coc_px, mixtures, nearest_px, farthest_px, workers),
+      search_(known_, coc_px, connected, mixtures, nearest_px, farthest_px, workers),
       witnesses_(known_, structure_, textures_, search_),
       every_(std::size_t(kDirections / rule.directions)),
       every_first_(std::size_t(kDirections / rule.first_directions)) {}

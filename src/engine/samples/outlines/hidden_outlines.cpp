@@ -77,14 +77,14 @@ HiddenOutlines::Open HiddenOutlines::Around::open(PixelAt shown, float coc_px) c
         const Outline& o = *near.outline;
         const bool own = one_surface(o.coc_px, coc_px);
         if (!own && o.coc_px >= coc_px) continue;
-        const bool from_left = own == o.same_is_left;
+        const bool from_left = near.right_px > 0, from_inside = from_left == o.same_is_left;
+        if (from_inside && !own) continue;
         const float sign = from_left ? 1.0f : -1.0f;
-        if (sign * near.right_px <= 0) continue;
         const PlanePoint from = place_of(shown, o);
         if (sign * o.arc.right_of(from) >= 0) continue;
         const float met = from_left ? o.arc.crossed(near.to, from) : o.arc.crossed(from, near.to);
         if (met < -model.end_px || met > o.length_px) continue;
-        (own ? open.within : open.unhidden) *=
+        (from_inside ? open.within : open.unhidden) *=
             1 - std::min(1.0f, std::abs(o.arc.aside(near.to)) / model.barrier_soft_px);
     }
     return open;

@@ -128,7 +128,6 @@ TEST(HiddenOutlines, AnEdgeContinuesAloneForAHundredPixels) {
     }
 }
 
-// If nothing lies behind the thing, or nothing in front of it, no outline is hidden.
 // A ball under a neck: beside the leaf, 4 px of its outline are visible before that of the neck. Specks of
 // hair touch the leaf, and none of them continues the ball.
 TEST(HiddenOutlines, ABallIsRoundUpToTheNeckThatStandsOnIt) {
@@ -142,6 +141,21 @@ TEST(HiddenOutlines, ABallIsRoundUpToTheNeckThatStandsOnIt) {
     EXPECT_LT(scene.error(8), 0.03);
 }
 
+// A box stands on a floor that is as far away as its foot.
+TEST(HiddenOutlines, AreNotCrossedByWhatIsAsFarAwayBesideThem) {
+    Plane coc(kSize, kSize, kBackPx);
+    for (int y = 0; y < kSize; ++y)
+        for (int x = 0; x < kSize; ++x)
+            coc(x, y) = y >= 40 && x < 70 ? kNearPx : x < 48 || y >= 50 ? 0 : kBackPx;
+    const HiddenOutlines outlines(coc, one_thread());
+    ASSERT_FALSE(outlines.outlines().empty());
+    const auto in_box = outlines.around({44, 60}), beside_it = outlines.around({52, 60});
+    EXPECT_EQ(in_box.open({20, 60}, 0).unhidden, 1);
+    EXPECT_EQ(in_box.open({80, 60}, 0).unhidden, 0) << "the floor does not continue into the box";
+    EXPECT_EQ(beside_it.open({20, 60}, 0).within, 0) << "the box does not continue onto the floor";
+}
+
+// If nothing lies behind the thing, or nothing in front of it, no outline is hidden.
 TEST(HiddenOutlines, OnlyThreeSurfacesHideAnOutline) {
     const Inside none = [](float, float) { return false; };
     const HiddenOutlines two(Scene(rectangle(-1, 40, 50, 100), none).coc, one_thread());

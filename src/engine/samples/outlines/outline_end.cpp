@@ -110,9 +110,7 @@ bool tells(const FittedArc& fitted) {
 DepthSide depth_side(float coc, float surface) {
     // The step is smaller than that of one_surface(): between touching pixels, a smaller step is an
     // outline already.
-    const CompletionModel& model = completion_model;
-    if (std::abs(coc - surface) < model.step_px + model.step_share * std::abs(coc + surface))
-        return DepthSide::Same;
+    if (std::abs(coc - surface) < completion_model.step_px) return DepthSide::Same;
     return coc < surface ? DepthSide::Nearer : DepthSide::Farther;
 }
 

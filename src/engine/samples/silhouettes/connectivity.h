@@ -10,19 +10,15 @@
 
 namespace petzval::engine {
 
-// A narrow step always connects, because it hides almost nothing.
-inline bool always_connected(float coc_a_px, float coc_b_px) {
-    return std::abs(coc_b_px - coc_a_px) <= completion_model.step_between_px(coc_a_px, coc_b_px);
-}
-
-// True if two neighbouring samples belong to one surface. A larger step connects them only if it continues
-// the slope on one of its sides. A slope is the signed change of radius, from the sample before a to a, or
-// from b to the sample after b.
-inline bool same_surface(float coc_a_px, float coc_b_px, float slope_before_a_px, float slope_after_b_px) {
-    if (always_connected(coc_a_px, coc_b_px)) return true;
-    const float step = coc_b_px - coc_a_px;
-    const float tolerance = completion_model.slope_tolerance * std::abs(step);
-    return std::abs(step - slope_before_a_px) <= tolerance || std::abs(step - slope_after_b_px) <= tolerance;
+// True if a step of the radius continues the slope beside it: the two steps `next` to it and `beyond` that
+// belong to one surface themselves. (With one step, a sliver one pixel wide would connect what lies before
+// and behind it.)
+inline bool continues_slope(float step_px, float next_px, float beyond_px) {
+    const auto alike = [](float a, float b) {
+        return std::abs(a - b) <= completion_model.slope_tolerance * std::abs(a);
+    };
+    return alike(step_px, next_px) &&
+           (std::abs(next_px) <= completion_model.between_px() || alike(next_px, beyond_px));
 }
 
 // Bits of a pixel: connected to its neighbour on that side. Beyond the picture counts as connected.

@@ -1,6 +1,7 @@
 #include "engine/samples/silhouettes/count.h"
 
 #include "base/parallel.h"
+#include "engine/samples/completion_model.h"
 #include "engine/samples/silhouettes/connectivity.h"
 #include "image/two_sweeps.h"
 
@@ -28,7 +29,7 @@ void spread(Image<Block>& blocks) {
         Block& own = blocks(x, y);
         const Block& other = blocks(x + dx, y + dy);
         const float beyond = other.beyond + float(kBlock) * chamfer_step(dx, dy);
-        if (beyond < own.beyond && other.far > own.nearest && !always_connected(other.far, own.nearest)) {
+        if (beyond < own.beyond && other.far - own.nearest > completion_model.between_px()) {
             own.beyond = beyond;
             own.far = other.far;
         }
@@ -68,7 +69,7 @@ Silhouettes silhouettes_of(View<const float> coc, Workers& workers) {
             const Rect pixels = pixels_of(bx, by);
             for (int y = pixels.y0; y < pixels.y1; ++y)
                 for (int x = pixels.x0; x < pixels.x1; ++x)
-                    if (coc(x, y) < block.far && !always_connected(coc(x, y), block.far) &&
+                    if (block.far - coc(x, y) > completion_model.between_px() &&
                         block.beyond <= std::abs(coc(x, y)))
                         rows[std::size_t(by)].hiding += double(sharp_px) * double(sharp_px);
         }
