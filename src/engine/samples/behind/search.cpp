@@ -59,8 +59,7 @@ void SurfaceSearch::lay_paths(float longest_px) {
     }
 }
 
-// True if a silhouette crosses the path from the pixel (x, y) to its pixel at distance t. What curves away,
-// such as a ball, is not behind itself.
+// True if a silhouette crosses the path from the pixel (x, y) to its pixel at distance t.
 bool SurfaceSearch::crosses_silhouette(const Path& path, int x, int y, float t) const {
     for (int i = int(t); i > 0; --i) {
         const auto [u, v] = path.pixels[std::size_t(i)];
@@ -87,6 +86,11 @@ std::array<Found, kHits> SurfaceSearch::look(const Start& from, std::size_t k) c
     float behind = own;
     const unsigned width = unsigned(coc_.width()), height = unsigned(coc_.height());
     const Step *step = path.steps.data(), *const end = step + path.steps.size();
+    // (A part of the pixel's own surface is behind it only if the lens looks past the pixel at that part: the
+    // top of a box is behind its front, but the rim of a ball is not behind the ball.)
+    const auto is_behind = [&](float coc_px) {
+        return step->t <= reach_px(from.own_px, coc_px) || crosses_silhouette(path, from.x, from.y, step->t);
+    };
     while (step != end && step->t <= longest) {
         const unsigned u = unsigned(x + step->x), v = unsigned(y + step->y);
         if (u >= width || v >= height) break;
@@ -95,7 +99,7 @@ std::array<Found, kHits> SurfaceSearch::look(const Start& from, std::size_t k) c
         // cache.)
         const float c = block.farthest > behind ? start[step->offset] : behind;
         if (c > behind && c > own + step->t * own_per_px + completion_model.between_px() &&
-            (n > 0 || crosses_silhouette(path, x, y, step->t))) {
+            (n > 0 || is_behind(c))) {
             hits[n++] = {true, int(u), int(v), c, step->t, known_.slope(int(u), int(v))};
             // (A surface in front of focus hides another one, past whose edges the lens looks in turn.)
             longest = std::min(longest, step->t + std::max(0.0f, -c));

@@ -1,6 +1,7 @@
 #include "base/parallel.h"
 #include "engine/samples/hidden.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -85,6 +86,23 @@ TEST(SurfaceSearch, ABallIsNotBehindItself) {
                 ++walls;
             }
     EXPECT_GT(walls, 5000) << "the wall is found behind the whole ball";
+}
+
+TEST(SurfaceSearch, TheTopOfABoxIsBehindItsFront) {
+    constexpr int kTop = 56, kFront = 64;
+    constexpr float kFrontPx = -13, kPerRow = 2.5f, kWallPx = 40;
+    Picture colour(kWidth, kHeight, kFloorColour);
+    Plane coc(kWidth, kHeight, kWallPx);
+    for (int y = kTop; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+            colour(x, y) = kBoxColour;
+            coc(x, y) = kFrontPx + kPerRow * float(std::max(0, kFront - y));
+        }
+    const HiddenLayers hidden = filled(coc, colour, kFrontPx);
+    for (int y = kFront + 2; y < kFront + 6; ++y) {
+        ASSERT_FALSE(hidden.at(kBox, y).empty()) << y;
+        EXPECT_LT(hidden.at(kBox, y).front().coc_px, kWallPx / 2) << y;
+    }
 }
 
 }  // namespace
