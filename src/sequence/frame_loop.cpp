@@ -38,12 +38,21 @@ std::string time_in_words(double seconds) {
     return plain(std::ceil(seconds / 360) / 10) + " h";
 }
 
-std::string without_numbers(std::string line) {
-    std::replace_if(
-        line.begin(), line.end(), [](char c) { return c >= '0' && c <= '9'; }, '#');
-    line.erase(std::unique(line.begin(), line.end(), [](char a, char b) { return a == '#' && b == '#'; }),
-               line.end());
-    return line;
+// Each number, with its sign, point and exponent, is one '#'.
+std::string without_numbers(const std::string& line) {
+    const auto is_digit = [&](std::size_t i) { return i < line.size() && line[i] >= '0' && line[i] <= '9'; };
+    const auto is_sign = [&](std::size_t i) { return i < line.size() && (line[i] == '-' || line[i] == '+'); };
+    std::string without;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        const bool is_exponent =
+            line[i] == 'e' && i > 0 && is_digit(i - 1) && is_digit(is_sign(i + 1) ? i + 2 : i + 1);
+        const bool leads = (is_sign(i) || line[i] == '.') && is_digit(i + 1);
+        if (!is_digit(i) && !is_exponent && !leads)
+            without += line[i];
+        else if (without.empty() || without.back() != '#')
+            without += '#';
+    }
+    return without;
 }
 
 // "focus 3.95 m, f/2.8, "

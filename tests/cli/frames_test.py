@@ -45,6 +45,15 @@ class Shots(CommandLineTest):
         self.assertEqual(read_exr(self.path("job #3/out.exr"))[0], read_exr(self.path("one.exr"))[0])
         self.succeed("inspect", "job #3/take #2.exr")
 
+    def test_warnings_that_differ_in_numbers_alone_are_printed_once(self):
+        for frame, least in ((1, -1e-7), (2, -0.25), (3, -3.0), (5, -2.5e-3)):
+            write_exr(self.path("in.%04d.exr" % frame),
+                      picture(40, 28, 0.5, 2.0, lambda x, y: 1.5 + frame if x < 20 else least))
+        outcome = self.defocus("--report", "r.jsonl")
+        self.assertEqual(outcome.err.count("the picture has alpha from"), 1, outcome.err)
+        with open(self.path("r.jsonl")) as file:
+            self.assertEqual(file.read().count("the picture has alpha from"), 4)
+
     def test_a_list_chooses_and_printf_names_work(self):
         self.succeed("defocus", "in.%04d.exr", "-o", "out.##.exr", *CAMERA, "--frames", "1-5x2")
         self.assertEqual(self.outputs(), ["out.01.exr", "out.03.exr", "out.05.exr"])
