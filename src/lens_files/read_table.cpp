@@ -62,16 +62,58 @@ std::vector<Row> rows_of(const std::vector<Line>& lines) {
     return rows;
 }
 
-// A surface that is left out makes another lens: lines with numbers between rows must be rows.
-Status check_between(const std::vector<Line>& lines, const std::vector<Row>& rows) {
+// A surface that is left out makes another lens, so lines with many numbers must be rows. A heading may state
+// a focal length and an f-number. A line of one number below the rows is a last radius.
+Status check_other_lines(const std::vector<Line>& lines, const std::vector<Row>& rows) {
     for (const Line& line : lines) {
-        if (line.number <= rows.front().line || line.number >= rows.back().line || row_of(line)) continue;
         const auto words = split_words(line.text);
+        if (row_of(line) || std::any_of(words.begin(), words.end(), marks_object_or_image)) continue;
         const auto is_number = [](std::string_view word) { return parse_number(word).has_value(); };
-        if (std::count_if(words.begin(), words.end(), is_number) >= 2)
+        const auto numbers = std::count_if(words.begin(), words.end(), is_number);
+        const bool is_radius = numbers == 1 && words.size() == 1 && line.number > rows.front().line;
+        if (numbers >= (line.number < rows.front().line ? 3 : 2) || is_radius)
             return at_line(line.number,
                            "is not a row: one begins with radius and thickness, as numbers; put # "
-                           "before notes between rows");
+                           "before notes");
+    }
+    return Done{};
+}
+
+bool has_digit(std::string_view text) {
+    return std::any_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+// Lines below the rows, such as coefficients of aspheres, are named.
+void warn_of_lines_below(LensFile& file, const std::vector<Line>& lines, int last_row) {
+    for (const Line& line : lines)
+        if (line.number > last_row && has_digit(line.text))
+            file.warnings.push_back("line " + std::to_string(line.number) +
+                                    " below the table is not read: " + quoted(trimmed(line.text)));
+}
+
+// The unit that a heading puts into brackets or behind "in", other than millimetres; empty if there is none.
+std::string_view other_unit(std::string_view heading) {
+    constexpr std::string_view kMarks = "()[],.:";
+    bool is_behind_in = false;
+    for (std::string_view word : split_words(heading)) {
+        const std::size_t bracket = word.find_first_of("([");  // "r[cm]"
+        const bool in_brackets = bracket != std::string_view::npos;
+        if (in_brackets) word.remove_prefix(bracket + 1);
+        while (!word.empty() && kMarks.find(word.back()) != std::string_view::npos) word.remove_suffix(1);
+        if ((in_brackets || is_behind_in) &&
+            (word == "m" || is_word_of(word, {"CM", "IN", "INCH", "INCHES", "CENTIMETRES", "CENTIMETERS"})))
+            return word;
+        is_behind_in = is_word_of(word, {"IN"});
+    }
+    return "";
+}
+
+Status check_unit(const std::vector<Line>& lines, int first_row) {
+    for (const Line& line : lines) {
+        if (line.number >= first_row) break;
+        if (const std::string_view unit = other_unit(line.text); !unit.empty())
+            return at_line(line.number, "lengths in " + quoted(unit) +
+                                            " are not read; convert them to mm and remove the unit");
     }
     return Done{};
 }
@@ -117,19 +159,20 @@ public:
     // semi: the last column holds semi-diameters.
     TableReader(LensFile& file, bool semi) : file_(file), diameters_(semi ? 2 : 1) {}
 
-    Status add(const Row& row) {
+    Status add(const Row& row, bool is_last) {
         if (file_.lens.surfaces.size() >= std::size_t(optics::kMostSurfaces))
             return at_line(row.line, "more than " + std::to_string(optics::kMostSurfaces) + " surfaces");
         optics::Surface surface;
         std::size_t at = 0;
-        if (row.words.size() == 1) {  // a stop with the distance behind it
-            surface.thickness_mm = *parse_number(row.words[at++]);
-        } else {
+        if (row.words.size() > 1 || !row.is_stop) {  // a stop may have only the distance behind it
             const double radius = *radius_of(row.words[at++]);
             surface.curvature_per_mm = radius == 0 ? 0 : 1 / radius;
-            surface.thickness_mm = *radius_of(row.words[at++]);
         }
-        if (!std::isfinite(surface.thickness_mm)) return at_line(row.line, "the thickness is not finite");
+        // A table need not state the distance behind its last surface, or may name it in a word.
+        const auto thickness = at < row.words.size() ? radius_of(row.words[at++]) : std::nullopt;
+        if (!is_last && (!thickness || !std::isfinite(*thickness)))
+            return at_line(row.line, "the thickness is not a finite number");
+        surface.thickness_mm = thickness.value_or(0);
         if (const Status glass = take_medium(row, at, surface); !glass) return glass;
         if (at < row.words.size()) {
             const auto diameter = parse_number(row.words[at]);
@@ -290,13 +333,15 @@ Result<LensFile> read_table(const std::string& text) {
     const std::vector<Line> lines = split_lines(text);
     std::vector<Row> rows = rows_of(lines);
     const int first_row = rows.front().line;
-    if (const Status complete = check_between(lines, rows); !complete) return complete.error();
+    if (const Status complete = check_other_lines(lines, rows); !complete) return complete.error();
+    if (const Status metric = check_unit(lines, first_row); !metric) return metric.error();
+    warn_of_lines_below(file, lines, rows.back().line);
     drop_numbers(rows);
     const bool semi = heads_semi(lines, first_row);
     if (semi) file.warnings.emplace_back("the last column is taken as semi-diameters, as the heading says");
     TableReader reader(file, semi);
     for (const Row& row : rows)
-        if (const Status added = reader.add(row); !added) return added.error();
+        if (const Status added = reader.add(row, &row == &rows.back()); !added) return added.error();
     reader.guess_stop();
     const double f_number = stated(lines, first_row, {"F/", "f/", "F=", "FNO=", "Fno=", "F-number="});
     if (const Status aperture = set_aperture(file.lens, f_number); !aperture) return aperture.error();

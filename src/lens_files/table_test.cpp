@@ -108,6 +108,40 @@ TEST(Table, ALineOfNumbersThatIsNoRowIsRefused) {
     EXPECT_EQ(read(with(unnumbered, "-50 d2", "# 7 8\nGroup 1\n-50 2")).lens.surfaces.size(), 3u);
 }
 
+TEST(Table, AFirstOrLastLineThatIsNoRowIsRefused) {
+    EXPECT_NE(refusal(with(kTronnier, "1   29.475", "1*  29.475")).find("line 3: is not a row"),
+              std::string::npos);
+    EXPECT_NE(refusal(with(kTronnier, "11  −39.73", "11* −39.73")).find("line 13: is not a row"),
+              std::string::npos);
+    const std::string unnumbered = "F/4 stop first\n50 3 1.5 60\n-50 2\n-80\n";
+    EXPECT_NE(refusal(unnumbered).find("line 4: is not a row"), std::string::npos) << refusal(unnumbered);
+}
+
+TEST(Table, TheDistanceBehindTheLastSurfaceMayBeMissingOrAWord) {
+    const double expected = focal_length(read(kTronnier));
+    EXPECT_DOUBLE_EQ(focal_length(read(with(kTronnier, "36.1                20", ""))), expected);
+    EXPECT_DOUBLE_EQ(focal_length(read(with(kTronnier, "36.1", "bf"))), expected);
+    EXPECT_NE(refusal(with(kTronnier, "5.705", "d5")).find("line 7: the thickness is not a finite number"),
+              std::string::npos);
+    EXPECT_NE(refusal(with(kTronnier, "6   stop  ∞  4.5", "6   stop  ∞  v")).find("line 8: the thickness"),
+              std::string::npos);
+}
+
+TEST(Table, LengthsInAnotherUnitAreRefused) {
+    for (const char* unit : {"R [cm]", "R(in)", "R in inches", "R (in inches)"})
+        EXPECT_NE(refusal(with(kTronnier, "R     ", unit)).find("line 2: lengths in "), std::string::npos)
+            << unit;
+    EXPECT_EQ(read(with(kTronnier, "R     ", "R [mm]")).lens.surfaces.size(), 11u);
+    EXPECT_EQ(read(with(kTronnier, "Double Gauss", "2 inch Gauss")).lens.surfaces.size(), 11u);
+}
+
+TEST(Table, LinesBelowAreNamed) {
+    const LensFile file = read(std::string(kTronnier) + "after Tronnier\nAspheric: K=0.5 A4=1.2e-5\n");
+    EXPECT_EQ(std::count_if(file.warnings.begin(), file.warnings.end(),
+                            [](const std::string& w) { return w.starts_with("line 15 below the table"); }),
+              1);
+}
+
 TEST(Table, ColumnsMayBePartedByTabsCommasOrBars) {
     const double expected = focal_length(read(kTronnier));
     for (const char separator : {',', ';', '|', '\t'}) {
