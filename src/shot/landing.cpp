@@ -1,5 +1,6 @@
 #include "shot/landing.h"
 
+#include "shot/following.h"
 #include "shot/optical_flow.h"
 
 #include <array>
@@ -159,51 +160,11 @@ Image<Landing> all_by_cameras(const Shot& other, const Way& way, Workers& worker
     return landings;
 }
 
-// The frames from `other` to the shot whose vectors can be asked, that of `other` first.
-std::vector<OtherPicture> steps_of(const OtherPicture& other, std::span<const OtherPicture> all) {
-    std::vector<OtherPicture> steps{other};
-    const int away = other.frames_later;
-    for (const OtherPicture& o : all)
-        if (o.frames_later * std::int64_t(away) > 0 && std::abs(o.frames_later) < std::abs(away) &&
-            !o.shot->motion.empty() && !o.shot->depth_plane().empty())
-            steps.push_back(o);
-    std::stable_sort(steps.begin(), steps.end(), [](const OtherPicture& a, const OtherPicture& b) {
-        return std::abs(a.frames_later) > std::abs(b.frames_later);
-    });
-    return steps;
-}
-
-// Follows a pixel along the vectors. If an intermediate frame hides its surface, the last motion continues.
-Landing carried(const std::vector<OtherPicture>& steps, int x, int y, const Rect& to) {
-    const bool back = steps.front().frames_later > 0;
-    const Rect& from = steps.front().shot->place.data_window;
-    double at_x = from.x0 + x + 0.5, at_y = from.y0 + y + 0.5;
-    const float depth = steps.front().shot->depth_plane()(x, y);
-    float seen_depth = depth;
-    PixelMove move{};
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-        const Shot& frame = *steps[i].shot;
-        const Rect& window = frame.place.data_window;
-        const int u = int(std::floor(at_x)), v = int(std::floor(at_y));
-        if (window.contains(u, v)) {
-            const float there = frame.depth_plane()(u - window.x0, v - window.y0);
-            const PixelMove own = frame.motion.at(u - window.x0, v - window.y0, back);
-            const bool is_it = laws::same_surface_by_depth(kOneSurface, there, seen_depth);
-            if (i == 0 || (is_it && std::isfinite(own.x))) move = own, seen_depth = there;
-        }
-        const int next = i + 1 < steps.size() ? steps[i + 1].frames_later : 0;
-        const int frames = std::abs(steps[i].frames_later - next);
-        at_x += frames * double(move.x), at_y += frames * double(move.y);
-        if (!(std::abs(at_x) < 1e7 && std::abs(at_y) < 1e7)) return {};  // unknown, or no picture is so wide
-    }
-    return {float(at_x - to.x0), float(at_y - to.y0), depth};
-}
-
 // Depth changes as the cameras say, where they say anything.
 Image<Landing> all_by_motion(const OtherPicture& other, std::span<const OtherPicture> all, const Shot& shot,
                              const Way* way, Workers& workers) {
     const View<const float> depth = other.shot->depth_plane();
-    const std::vector<OtherPicture> steps = steps_of(other, all);
+    const Steps steps = steps_of(other, all);
     auto landings = Image<Landing>::uninitialised(depth.width(), depth.height());
     for_rows(depth.height(), workers, [&](int y) {
         for (int x = 0; x < depth.width(); ++x) {
@@ -241,19 +202,14 @@ Image<Landing> all_by_estimate(const OtherPicture& other, const Shot& shot, Work
 // The share of some pixels of `other` that look as the shot does where they land.
 double likeness(const Shot& other, const Shot& shot, const Image<Landing>& landings) {
     constexpr int kStep = 3;
-    const View<const float> theirs = other.depth_plane(), ours = shot.depth_plane();
+    const View<const float> theirs = other.depth_plane();
     int alike = 0, all = 0;
     for (int y = kStep / 2; y < theirs.height(); y += kStep)
         for (int x = kStep / 2; x < theirs.width(); x += kStep) {
             const Landing& at = landings(x, y);
-            const float u = std::floor(at.x), v = std::floor(at.y);
-            if (!(at.depth_m > 0) || std::isinf(theirs(x, y)) || !(u >= 0 && v >= 0) ||
-                !(u < float(ours.width()) && v < float(ours.height())))
-                continue;
-            const float depth = ours(int(u), int(v));
+            if (std::isinf(theirs(x, y)) || !lands_within(at, shot.depth_plane())) continue;
             ++all;
-            alike += std::max(depth, at.depth_m) <= kSilhouette * std::min(depth, at.depth_m) &&
-                     look_alike(other, x, y, shot, at);
+            alike += lands_alike(other, x, y, shot, at);
         }
     return all > 0 ? double(alike) / all : 0;
 }
@@ -264,9 +220,9 @@ std::string name_of(const OtherPicture& other) {
     return other.motion_from == MotionReading::From::Still ? "with a still camera" : "by optical flow";
 }
 
-std::string percent(double share) { return std::to_string(int(std::lround(100 * share))) + " %"; }
-
 }  // namespace
+
+std::string percent(double share) { return std::to_string(int(std::lround(100 * share))) + " %"; }
 
 Bounds bounds_of(View<const float> depth, Workers& workers) {
     Bounds bounds{Plane(depth.width(), depth.height()), Plane(depth.width(), depth.height())};
@@ -308,6 +264,17 @@ bool look_alike(const Shot& other, int x, int y, const Shot& shot, const Landing
     return near(a.r, b.r) && near(a.g, b.g) && near(a.b, b.b);
 }
 
+bool lands_alike(const Shot& other, int x, int y, const Shot& shot, const Landing& at) {
+    const float depth = shot.depth_plane()(int(at.x), int(at.y));
+    return std::max(depth, at.depth_m) <= kSilhouette * std::min(depth, at.depth_m) &&
+           look_alike(other, x, y, shot, at);
+}
+
+bool lands_within(const Landing& at, View<const float> depth) {
+    const float u = std::floor(at.x), v = std::floor(at.y);
+    return at.depth_m > 0 && u >= 0 && v >= 0 && u < float(depth.width()) && v < float(depth.height());
+}
+
 Status check_depth(const Shot& shot) {
     if (!std::holds_alternative<DepthMetres>(shot.depth)) return cannot(shot, "no depth in metres");
     return Done{};
@@ -337,6 +304,7 @@ Result<Landings> landings_of(const OtherPicture& other, std::span<const OtherPic
                              (standing >= kShareThatFits || alike >= kShareThatIsFollowed);
         if (landings.by_motion) {
             landings.of_pixels = std::move(moved);
+            if (has_vectors) landings.warning = note_of_signs(other, all, shot);
             return landings;
         }
         landings.warning =

@@ -41,10 +41,15 @@ Verdict verdict_of(const Landing& at, const Bounds& bounds);
 // True if a pixel has the colour of its landing position. Requires: it lands within the shot.
 bool look_alike(const Shot& other, int x, int y, const Shot& shot, const Landing& at);
 
+// True if the position is in the picture of that depth.
+bool lands_within(const Landing& at, View<const float> depth);
+// True if colours are alike and depths are those of one surface. Requires: it lands within the shot.
+bool lands_alike(const Shot& other, int x, int y, const Shot& shot, const Landing& at);
+
 struct Landings {
     Image<Landing> of_pixels;  // of the other picture
     bool by_motion = false;
-    std::string warning;  // of motion vectors that were not used; else empty
+    std::string warning;  // of motion vectors that were not used, or that fit with other signs; else empty
 };
 // Landing positions in `shot` of the pixels of `other`. Motion vectors lead from frame to frame through the
 // frames of `all` in between, as long as they see the surface; without vectors, and for missing depth,
@@ -55,6 +60,9 @@ Result<Landings> landings_of(const OtherPicture& other, std::span<const OtherPic
 // Errors: InvalidArgument for a shot without depth in metres, without that and a camera with its matrix.
 Status check_depth(const Shot& shot);
 Status check_eye(const Shot& shot);
+
+// "70 %", of 0.7.
+std::string percent(double share);
 
 template <typename Body>
 void for_rows(int rows, Workers& workers, const Body& body) {

@@ -104,6 +104,21 @@ TEST(Landing, WhatComesNearerIsFollowed) {
     EXPECT_GT(card_pixels(found), 8 * kHeight);
 }
 
+// Most of the picture stands still, so its vectors fit it whatever their signs are.
+TEST(Landing, VectorsThatFitBetterWithOtherSignsAreNamed) {
+    const Passing p{.speed_px = 3};
+    const Shot shot = shot_of(p, 0);
+    Shot turned = shot_of(p, -1);
+    for (std::size_t i = 0; i < turned.motion.to_next.size(); ++i) turned.motion.to_next.pixels()[i].x *= -1;
+    const std::vector<OtherPicture> others{{&turned, -1}};
+    const auto found = seen_elsewhere(shot, others, *own_workers(1));
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->by_motion, 1);
+    ASSERT_EQ(found->left_out.size(), 1u);
+    EXPECT_NE(found->left_out[0].find("if they point the other way"), std::string::npos)
+        << found->left_out[0];
+}
+
 TEST(Landing, VectorsThatFitWorseThanCamerasAreLeftOutByName) {
     const Passing p{.has_camera = true};
     Shot shot = shot_of(p, 0), wrong = shot_of(p, 1);
