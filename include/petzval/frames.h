@@ -34,8 +34,14 @@ public:
     std::optional<int> frame_of(std::string_view file_name) const;
     // Numbers of the existing files, ascending. Errors: InvalidFile for a folder that cannot be read.
     Result<std::vector<int>> frames_there() const;
+    // Names of the existing files that differ from this pattern only in the number of digits, sorted; the
+    // same errors.
+    Result<std::vector<std::string>> of_other_digits() const;
 
 private:
+    std::optional<int> number_in(std::string_view file_name) const;
+    Result<std::vector<std::string>> files_there() const;
+
     std::string folder_, before_, after_;  // folder_ ends with '/', or is empty
     int digits_ = 1;
 };

@@ -144,8 +144,13 @@ Status FrameLoop::State::find_frames() {
     auto there = (*pattern)->frames_there();
     if (!there) return there.error();
     frames = std::move(*there);
-    if (frames.empty()) return Error{ErrorCode::InvalidFile, work.input + ": no frame exists"};
+    const auto others = (*pattern)->of_other_digits();
+    const std::string other =
+        others && !others->empty() ? "; " + others->front() + " has another number of digits" : "";
+    if (frames.empty()) return Error{ErrorCode::InvalidFile, work.input + ": no frame exists" + other};
     say(Say::Note, "no run.frames given: all existing frames");
+    if (!other.empty())
+        say(Say::Warning, work.input + ": files left out: " + std::to_string(others->size()) + other);
     if (const std::vector<int> left_out = gaps(frames); !left_out.empty())
         say(Say::Warning,
             work.input + ": between existing frames, these are missing: " + frames_text(left_out));

@@ -184,29 +184,49 @@ std::string FramePattern::path(int frame) const {
     return folder_ + before_ + (frame < 0 ? "-" : "") + number + after_;
 }
 
-std::optional<int> FramePattern::frame_of(std::string_view file_name) const {
+std::optional<int> FramePattern::number_in(std::string_view file_name) const {
     if (file_name.size() <= before_.size() + after_.size() || !file_name.starts_with(before_) ||
         !file_name.ends_with(after_))
         return std::nullopt;
     std::string_view digits =
         file_name.substr(before_.size(), file_name.size() - before_.size() - after_.size());
     const auto frame = take_number(digits);
-    if (!frame || !digits.empty()) return std::nullopt;
-    // Another number of digits is another pattern's file.
-    return folder_ + std::string(file_name) == path(*frame) ? frame : std::nullopt;
+    return digits.empty() ? frame : std::nullopt;
 }
 
-Result<std::vector<int>> FramePattern::frames_there() const {
-    std::vector<int> frames;
+// Another number of digits is another pattern's file.
+std::optional<int> FramePattern::frame_of(std::string_view file_name) const {
+    const auto frame = number_in(file_name);
+    return frame && folder_ + std::string(file_name) == path(*frame) ? frame : std::nullopt;
+}
+
+Result<std::vector<std::string>> FramePattern::files_there() const {
+    std::vector<std::string> names;
     std::error_code wrong;
     std::filesystem::directory_iterator entry(folder_.empty() ? "." : folder_, wrong);
     for (const std::filesystem::directory_iterator end; !wrong && entry != end; entry.increment(wrong))
-        if (const auto frame = frame_of(entry->path().filename().string())) frames.push_back(*frame);
+        if (std::string name = entry->path().filename().string(); number_in(name)) names.push_back(name);
     if (wrong)
         return Error{ErrorCode::InvalidFile,
                      (folder_.empty() ? "." : folder_) + ": cannot be read: " + wrong.message()};
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+Result<std::vector<int>> FramePattern::frames_there() const {
+    const auto names = files_there();
+    if (!names) return names.error();
+    std::vector<int> frames;
+    for (const std::string& name : *names)
+        if (const auto frame = frame_of(name)) frames.push_back(*frame);
     std::sort(frames.begin(), frames.end());
     return frames;
+}
+
+Result<std::vector<std::string>> FramePattern::of_other_digits() const {
+    auto names = files_there();
+    if (names) std::erase_if(*names, [&](const std::string& name) { return frame_of(name).has_value(); });
+    return names;
 }
 
 bool has_frame_number(const std::string& path) {

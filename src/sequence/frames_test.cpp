@@ -77,6 +77,8 @@ TEST(FramePatterns, FindWhatIsThere) {
     for (const char* name : {"a.0003.exr", "a.0001.exr", "a.1.exr", "a.0002.png", "a.10000.exr"})
         std::ofstream(folder / name) << "x";
     EXPECT_EQ(pattern((folder / "a.####.exr").c_str()).frames_there().value(), (Frames{1, 3, 10000}));
+    EXPECT_EQ(pattern((folder / "a.####.exr").c_str()).of_other_digits().value(),
+              std::vector<std::string>{"a.1.exr"});
     std::filesystem::remove_all(folder.path());
     EXPECT_FALSE(pattern((folder / "a.####.exr").c_str()).frames_there());
 }

@@ -54,6 +54,13 @@ class Shots(CommandLineTest):
         with open(self.path("r.jsonl")) as file:
             self.assertEqual(file.read().count("the picture has alpha from"), 4)
 
+    def test_frames_of_other_digits_are_named(self):
+        shutil.copy(self.path("in.0001.exr"), self.path("in.-0001.exr"))
+        self.assertIn("files left out: 1; in.-0001.exr has another number of digits", self.defocus().err)
+        self.assertNotIn("left out", self.defocus("--frames", "1-3").err)
+        self.refuse(3, "defocus", "in.##.exr", "-o", "out.##.exr", *CAMERA,
+                    says=["no frame exists; in.-0001.exr has another number of digits"])
+
     def test_a_list_chooses_and_printf_names_work(self):
         self.succeed("defocus", "in.%04d.exr", "-o", "out.##.exr", *CAMERA, "--frames", "1-5x2")
         self.assertEqual(self.outputs(), ["out.01.exr", "out.03.exr", "out.05.exr"])
