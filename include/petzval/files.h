@@ -137,6 +137,7 @@ struct DepthOfFile {
     bool is_share = false;              // as Frame::depth_is_share
     bool is_colour = false;             // no channel of an EXR is named like depth: its first colour channel
     std::vector<std::string> detected;  // as Frame::detected; the first one names the channel of an EXR
+    std::vector<std::string> warnings;  // about maps of another shape, and coloured ones
 };
 // Reads options.depth_file, in any format of read_frame(), over the data window of `place`. A map of another
 // size is stretched over the display window: to the nearest value, or as lines between the values of smaller

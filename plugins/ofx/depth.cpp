@@ -101,7 +101,9 @@ Result<Stored> of_file(const DepthQuestion& q) {
     if (file->is_share)
         if (const Status fine = check_depth_codes(settings_of(v), v.depth_unit_m != 1); !fine)
             return refused(options.depth_file + ": " + fine.error().message);
-    return Stored{std::move(file->depth), file->is_share, file->is_colour ? file->detected.front() : ""};
+    std::string doubt = file->is_colour ? file->detected.front() : "";
+    if (doubt.empty() && !file->warnings.empty()) doubt = file->warnings.front();
+    return Stored{std::move(file->depth), file->is_share, std::move(doubt)};
 }
 
 Result<Stored> stored_depth(const DepthQuestion& q) {

@@ -72,6 +72,36 @@ TEST(DepthFile, OfWholeNumbersIsAShare) {
     EXPECT_EQ(read->depth(7, 5), 1);
 }
 
+TEST(DepthFile, OfAnotherShapeIsStretchedWithAWarning) {
+    const TemporaryFolder folder;
+    write_quick_exr(folder / "turned.exr", {0, 0, 6, 8}, {depth_part({0, 0, 6, 8})});
+    ASSERT_TRUE(write_png(folder / "turned.png", {3, 4, 1, 8, std::vector<std::uint16_t>(12, 9)}));
+    for (const char* name : {"turned.exr", "turned.png"}) {
+        const auto read = depth_in(folder / name);
+        ASSERT_TRUE(read) << read.error().message;
+        EXPECT_THAT(read->warnings, Contains(HasSubstr("another shape"))) << name;
+    }
+    ASSERT_TRUE(write_png(folder / "small.png", {4, 3, 1, 8, std::vector<std::uint16_t>(12, 9)}));
+    const auto small = depth_in(folder / "small.png");
+    ASSERT_TRUE(small);
+    EXPECT_TRUE(small->warnings.empty());
+}
+
+TEST(DepthFile, OfColoursIsReadFromRedWithAWarning) {
+    const TemporaryFolder folder;
+    std::vector<std::uint16_t> false_colours, grey_as_jpeg;
+    for (int i = 0; i < 12; ++i) {
+        false_colours.insert(false_colours.end(), {std::uint16_t(20 * i), 90, 200});
+        for (const int off : {1, 0, 3}) grey_as_jpeg.push_back(std::uint16_t(20 * i + off));
+    }
+    ASSERT_TRUE(write_png(folder / "false.png", {4, 3, 3, 8, false_colours}));
+    ASSERT_TRUE(write_png(folder / "grey.png", {4, 3, 3, 8, grey_as_jpeg}));
+    const auto coloured = depth_in(folder / "false.png"), grey = depth_in(folder / "grey.png");
+    ASSERT_TRUE(coloured && grey);
+    EXPECT_THAT(coloured->warnings, Contains(HasSubstr("has colours")));
+    EXPECT_TRUE(grey->warnings.empty());
+}
+
 TEST(DepthFile, OfDeepSamplesIsTheirFrontView) {
     const TemporaryFolder folder;
     const std::vector<DeepSample> samples{

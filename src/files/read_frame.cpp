@@ -100,12 +100,30 @@ Plane depth_over(const Rect& display, const Plane& depth, bool shares, const Rec
 // The note about a map of another size; empty if the size fits.
 std::string resampled(const Rect& theirs, const Rect& display, bool shares) {
     if (theirs.width() == display.width() && theirs.height() == display.height()) return "";
-    const double shape =
-        double(theirs.width()) * display.height() / (double(theirs.height()) * display.width());
     const bool lines = shares && theirs.width() < display.width();
     return "; " + size_of(theirs) + " for " + size_of(display) +
-           (lines ? ", a line between its values" : ", the nearest value each") +
-           (std::abs(shape - 1) > 0.02 ? ", of another shape: stretched" : "");
+           (lines ? ", a line between its values" : ", the nearest value each");
+}
+
+void warn_of_shape(const std::string& path, const Rect& theirs, const Rect& display, DepthOfFile& into) {
+    const double shape =
+        double(theirs.width()) * display.height() / (double(theirs.height()) * display.width());
+    if (std::abs(shape - 1) > 0.02)
+        into.warnings.push_back("depth of " + printable(path) + " has another shape, " + size_of(theirs) +
+                                " for " + size_of(display) +
+                                ", and is stretched: it may be cropped or turned");
+}
+
+// Maps of depth as colours (false colours, or bytes of one number) have no depth in their first channel.
+// Grey saved as JPEG differs by a few codes between channels.
+bool is_coloured(const Raster& r) {
+    constexpr double kGrey = 0.02;  // of full scale, in the mean
+    if (r.channels < 3 || r.is_float() || r.codes.empty()) return false;
+    double differences = 0;
+    for (std::size_t i = 0; i < r.codes.size(); i += std::size_t(r.channels))
+        differences += std::max(std::abs(r.codes[i] - r.codes[i + 1]), std::abs(r.codes[i] - r.codes[i + 2]));
+    const double pixels = double(r.codes.size()) / r.channels;
+    return differences > kGrey * (r.bits == 16 ? 65535 : 255) * pixels;
 }
 
 Status take_raster(const InputFile& file, const RasterFormat& format, const ReadOptions& options,
@@ -119,8 +137,13 @@ Status take_raster(const InputFile& file, const RasterFormat& format, const Read
         "depth: " + printable(file.path()) + ", " + std::to_string(raster->bits) + " bit" +
         (raster->is_float() ? " float" : " as a share of full scale, never sRGB-decoded") +
         (fits_data ? "" : resampled(raster->rect(), place.display_window, into.is_share)));
-    if (!fits_data)
-        into.depth = depth_over(place.display_window, into.depth, into.is_share, place.data_window);
+    if (is_coloured(*raster))
+        into.warnings.push_back("depth of " + printable(file.path()) +
+                                " has colours: only its red channel is read, which false colours and "
+                                "packed bytes do not keep in order");
+    if (fits_data) return Done{};
+    warn_of_shape(file.path(), raster->rect(), place.display_window, into);
+    into.depth = depth_over(place.display_window, into.depth, into.is_share, place.data_window);
     return Done{};
 }
 
@@ -163,6 +186,7 @@ Status take_exr(const std::shared_ptr<const InputFile>& file, const ReadOptions&
     if (!exr) return exr.error();
     const Rect& display = place.display_window;
     const std::string other_size = resampled(exr->display, display, false);
+    warn_of_shape(file->path(), exr->display, display, into);
     into.is_colour = exr->is_colour;
     into.detected.push_back(exr->line + ", in " + printable(file->path()) + other_size);
     // Display windows lie on each other, wherever they begin.
@@ -208,6 +232,7 @@ Status take_depth_file(const ReadOptions& options, Frame& frame) {
     if (!read) return read.error();
     frame.depth = std::move(read->depth), frame.depth_is_share = read->is_share;
     for (std::string& line : read->detected) frame.detected.push_back(std::move(line));
+    for (std::string& line : read->warnings) frame.warnings.push_back(std::move(line));
     return Done{};
 }
 
