@@ -101,7 +101,8 @@ void add_develop(Verb& program, Action& chosen) {
     flags->develop.add_to(verb);
     flags->ocio.add_to(verb);
     FlagGroup(verb, "Display picture (PNG)")
-        .value("--bits", "N", "8 (default) or 16 per channel", parse_bits, flags->develop.bits)
+        .value("--bits", "N", "8 or 16 per channel (default 8; 16 for 16-bit input)", parse_bits,
+               flags->develop.bits)
         .on("--no-dither", "round without dither, the noise that hides bands", flags->no_dither);
     flags->run.add_threads_to(verb);
     flags->run.add_log_to(verb, false);

@@ -21,14 +21,14 @@ enum class FileKind { Exr, Png };
 PETZVAL_API Result<FileKind> kind_of_output(const std::string& path);
 
 // The conversion of scene-linear light to a display picture. Fields that are not given get defaults that
-// depend on the input: a picture that was display-referred keeps its look.
+// depend on the input: a picture of display codes keeps its look, and its 16 bits.
 struct DisplayChoice {
     std::optional<double> exposure_stops = {}, contrast = {};
     std::optional<ToneCurve> tone = {};
-    int bits = 8;
+    std::optional<int> bits = {};  // 8 or 16
 
-    PETZVAL_API DevelopSettings settings(bool display_referred, std::optional<Transfer> transfer,
-                                         int threads) const;
+    // code_bits: as Frame::code_bits.
+    PETZVAL_API DevelopSettings settings(int code_bits, std::optional<Transfer> transfer, int threads) const;
 };
 
 // Key and text of each text chunk of a PNG.

@@ -111,7 +111,9 @@ struct Frame {
     // History of the colour's part, a line per step, oldest first (attribute petzval:history), and the
     // first channel of the colour, its name in the history.
     std::string history, colour_name;
-    bool display_referred = false;  // read from PNG: 1.0 is clipped highlights
+    // 8 or 16: read from display codes of so many bits, whose 1.0 is clipped highlights; 0: light.
+    int code_bits = 0;
+    bool display_referred() const { return code_bits > 0; }
     std::size_t non_finite_colour =
         0;  // NaN or infinite colour values that were replaced by 0 or the largest half
     std::vector<PartSummary> parts;

@@ -98,7 +98,9 @@ struct Shot {
     DepthReport depth_report;
     std::vector<std::string> views;  // as in Frame, and below
     std::string view, history, colour_name;
-    bool display_referred = false;      // read from PNG: 1.0 is clipped highlights
+    // 8 or 16: read from display codes of so many bits, whose 1.0 is clipped highlights; 0: light.
+    int code_bits = 0;
+    bool display_referred() const { return code_bits > 0; }
     std::size_t non_finite_colour = 0;  // values that were replaced
     std::vector<PartSummary> parts;
     std::vector<std::string> detected, warnings;  // one line each, for logs and reports

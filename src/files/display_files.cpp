@@ -19,13 +19,12 @@ Result<FileKind> kind_of_output(const std::string& path) {
                  path + ": the name must end in .exr or .png (standard output is -.exr or -.png)"};
 }
 
-DevelopSettings DisplayChoice::settings(bool display_referred, std::optional<Transfer> transfer,
-                                        int threads) const {
+DevelopSettings DisplayChoice::settings(int code_bits, std::optional<Transfer> transfer, int threads) const {
     return {.exposure_stops = exposure_stops.value_or(0),
             .contrast = contrast.value_or(1),
-            .tone = tone.value_or(display_referred ? ToneCurve::None : ToneCurve::Filmic),
+            .tone = tone.value_or(code_bits > 0 ? ToneCurve::None : ToneCurve::Filmic),
             .transfer = transfer.value_or(Transfer::Srgb),
-            .bits = bits,
+            .bits = bits.value_or(code_bits == 16 ? 16 : 8),
             .threads = threads};
 }
 

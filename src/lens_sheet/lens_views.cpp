@@ -104,7 +104,7 @@ Status write_lens_view_sheet(const LensViewFile& file, const Control& control,
     const CameraChoice& user = file.source.camera;
     if (!user.wide_open && (user.f_number || user.aperture_diameter_mm) && shot->camera.f_number)
         settings.f_number = shot->camera.f_number->value;
-    settings.develop = file.display.settings(shot->display_referred, file.transfer, file.threads);
+    settings.develop = file.display.settings(shot->code_bits, file.transfer, file.threads);
     Session session({.threads = file.threads});
     const auto sheet =
         lens_view_sheet(session, *shot, file.look, settings, control, [&](const LensView& view) {

@@ -97,8 +97,7 @@ Result<FrameRecord> developed(const DevelopShot& settings, const Lens& lens, con
     const double read_s = total.seconds();
     if (Status glared = add_glare(*shot, lens, settings); !glared) return glared.error();
     const double glare_s = total.seconds() - read_s;
-    DevelopSettings develop =
-        settings.display.settings(shot->display_referred, settings.transfer, settings.threads);
+    DevelopSettings develop = settings.display.settings(shot->code_bits, settings.transfer, settings.threads);
     develop.dither = settings.dither;
     const auto shown = shown_by(host, *shot, develop);
     if (!shown) return shown.error();

@@ -125,7 +125,7 @@ Status FrameMaker::read() {
         shot_.warnings.emplace_back(
             "input already defocused by petzval (see petzval:history); blurring it a second time");
     tell_new_warnings();
-    if (settings_.transfer && !shot_.display_referred && *kind_of_output(settings_.output) != FileKind::Png)
+    if (settings_.transfer && !shot_.display_referred() && *kind_of_output(settings_.output) != FileKind::Png)
         return Error{ErrorCode::InvalidArgument,
                      "read.transfer is for whole numbers, such as those of PNG; neither " +
                          settings_.source.path + " nor " + settings_.output + " holds them"};

@@ -100,7 +100,7 @@ private:
 
     int threads() const { return settings_.source.read.threads; }
     DevelopSettings display() const {
-        return settings_.display.settings(shot_.display_referred, settings_.transfer, threads());
+        return settings_.display.settings(shot_.code_bits, settings_.transfer, threads());
     }
     const Look& look() const { return settings_.look; }
     bool replaces() const { return settings_.existing != ExistingOutputs::Keep || context_.again; }

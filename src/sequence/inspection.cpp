@@ -67,7 +67,7 @@ std::optional<FocusLimits> limits_of(const Shot& shot, double permissible_radius
 }  // namespace
 
 Inspection inspection_of(const Shot& shot, DepthKind kind, double permissible_radius_px) {
-    Inspection seen{measure_dynamic_range(shot.colour.view(), shot.display_referred),
+    Inspection seen{measure_dynamic_range(shot.colour.view(), shot.display_referred()),
                     limits_of(shot, permissible_radius_px),
                     {}};
     Json record = Json::parse(empty_record("inspect"));
@@ -75,7 +75,7 @@ Inspection inspection_of(const Shot& shot, DepthKind kind, double permissible_ra
     record["display_window"] = place_and_size(shot.place.display_window);
     record["data_window"] = place_and_size(shot.place.data_window);
     record["pixel_aspect"] = shot.place.pixel_aspect;
-    record["display_referred"] = shot.display_referred;
+    record["display_referred"] = shot.display_referred();
     record["has_alpha"] = shot.has_alpha;
     record["parts"] = parts_json(shot.parts, place_and_size);
     record["depth"] = nullptr;
@@ -98,7 +98,7 @@ Result<InspectedFile> inspect_file(const InspectFile& file, const Control& contr
     const Stopwatch watch;
     auto shot = read_shot(file.source, control);
     if (!shot) return shot.error();
-    if (file.transfer && !shot->display_referred)
+    if (file.transfer && !shot->display_referred())
         return Error{ErrorCode::InvalidArgument,
                      "read.transfer is for whole numbers, such as those of PNG; " + file.source.path +
                          " does not hold them"};

@@ -138,7 +138,7 @@ std::string inspection_text(const InspectFile& file, const InspectedFile& inspec
     std::ostringstream out;
     out << in_one_line(file.source.path) << "\n  display window " << window_text(shot.place.display_window);
     if (shot.place.pixel_aspect != 1) out << ", pixel aspect " << plain(shot.place.pixel_aspect);
-    if (shot.display_referred) out << ", display-referred";
+    if (shot.display_referred()) out << ", display-referred";
     out << "\n";
     describe_parts(shot, out);
     describe_list("detected", detected_in_picture(shot), in_words, out);

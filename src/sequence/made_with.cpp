@@ -104,7 +104,7 @@ void MadeWith::add(const DisplayChoice& display) {
     add("develop.exposure_stops", display.exposure_stops);
     add("develop.contrast", display.contrast);
     if (display.tone) add("develop.tone", name_of(*display.tone));
-    if (display.bits != 8) add("display.bits", double(display.bits));
+    if (display.bits) add("display.bits", double(*display.bits));
 }
 
 void MadeWith::add_files(const std::vector<std::string>& names) {

@@ -267,9 +267,9 @@ Status sequence::make_black_frame(const ShotRunSettings& settings, const ShotRun
     for (FrameLayer& layer : shot->layers)
         layer.colour = Picture(shot->colour.width(), shot->colour.height());
     if (*kind_of_output(settings.output) == FileKind::Png)
-        return write_developed(
-            settings.output, shot->colour,
-            settings.display.settings(shot->display_referred, {}, like.source.read.threads), replaces);
+        return write_developed(settings.output, shot->colour,
+                               settings.display.settings(shot->code_bits, {}, like.source.read.threads),
+                               replaces);
     WriteOptions options;
     options.overwrite = replaces;
     return write_exr(settings.output, to_frame(std::move(*shot)), options);

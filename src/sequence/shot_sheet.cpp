@@ -37,9 +37,8 @@ public:
             std::min(width_ / (whole.width() * at.pixel_aspect), double(height_) / whole.height());
         const int width = std::clamp(int(std::lround(whole.width() * at.pixel_aspect * scale)), 1, width_);
         const int height = std::clamp(int(std::lround(whole.height() * scale)), 1, height_);
-        const Picture seen =
-            shown(resized(whole, width, height),
-                  sheet_.display.settings(shot->display_referred, sheet_.transfer, sheet_.threads));
+        const Picture seen = shown(resized(whole, width, height),
+                                   sheet_.display.settings(shot->code_bits, sheet_.transfer, sheet_.threads));
         Picture cell(width_, height_, {0, 0, 0, 1});
         for (int y = 0; y < height; ++y)
             std::copy_n(seen.row(y), width, cell.row(y + (height_ - height) / 2) + (width_ - width) / 2);

@@ -35,7 +35,7 @@ Shot shot_of(Frame& frame, const ShotSource& source) {
     shot.view = std::move(frame.view);
     shot.history = std::move(frame.history);
     shot.colour_name = std::move(frame.colour_name);
-    shot.display_referred = frame.display_referred;
+    shot.code_bits = frame.code_bits;
     shot.non_finite_colour = frame.non_finite_colour;
     shot.parts = std::move(frame.parts);
     shot.detected = std::move(frame.detected);
@@ -221,7 +221,7 @@ Frame to_frame(Shot shot) {
     frame.layers_carried = std::move(shot.layers_carried);
     if (auto* metres = std::get_if<DepthMetres>(&shot.depth)) frame.depth = std::move(metres->plane);
     frame.camera = std::move(shot.camera);
-    frame.display_referred = shot.display_referred;
+    frame.code_bits = shot.code_bits;
     frame.parts = std::move(shot.parts);
     frame.carried = std::move(shot.carried);
     return frame;

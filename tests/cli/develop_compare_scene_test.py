@@ -5,7 +5,7 @@ import struct
 import unittest
 
 from pictures import attribute, camera_attributes, picture, plane, read_exr, read_png, write_exr, write_png
-from program import CommandLineTest
+from program import CAMERA, CommandLineTest
 
 KEYS = ["psnr_lin", "ssim_lin", "psnr_srgb", "ssim_srgb", "psnr_log", "max_error", "energy_ratio"]
 
@@ -25,6 +25,17 @@ class Develop(CommandLineTest):
         self.assertEqual(bits, 16)
         for x in range(64):
             self.assertAlmostEqual(rows[0][3 * x], 65535 * srgb(x / 64), delta=0.51)
+
+    def test_sixteen_bits_stay_sixteen(self):
+        codes = [[1000 * x + y for x in range(64) for _ in range(3)] for y in range(32)]
+        write_png(self.path("in.png"), codes, bits=16)
+        write_exr(self.path("z.exr"), picture(64, 32))
+        self.succeed("defocus", "in.png", "--depth", "z.exr", "-o", "out.png", *CAMERA)  # all of it is in focus
+        rows, _, bits = read_png(self.path("out.png"))
+        self.assertEqual(bits, 16)
+        self.assertLess(max(abs(a - b) for own, given in zip(rows, codes) for a, b in zip(own, given)), 4)
+        self.succeed("develop", "in.png", "-o", "eight.png", "--bits", "8")
+        self.assertEqual(read_png(self.path("eight.png"))[2], 8)
 
     def test_mid_grey_is_kept_in_the_mean_and_dithered(self):
         rows, _, _ = self.develop(0.18)

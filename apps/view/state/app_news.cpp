@@ -46,7 +46,8 @@ void App::take_shot(ReadShot read) {
     shot_ = std::move(read.shot);
     if (state.orbit.is_home()) home_ = shot_->shot.camera_of_file;
     if (shot_->frames > setup_.scene_frames) has_frames(shot_->frames);
-    if (!setup_.run.display.tone && shot_->shot.display_referred) state.choice.develop.tone = ToneCurve::None;
+    if (!setup_.run.display.tone && shot_->shot.display_referred())
+        state.choice.develop.tone = ToneCurve::None;
     notice = shot_->shot.warnings.empty() ? "" : shot_->shot.warnings.back();
     if (shot_->shot.depth_plane().empty()) {
         notice = "no depth: the sharp picture is shown; see the panel Input";

@@ -75,7 +75,7 @@ std::string json_of(const Shot& shot) {
                 {"layers", layers},
                 {"views", shot.views},
                 {"has_alpha", shot.has_alpha},
-                {"display_referred", shot.display_referred}}
+                {"display_referred", shot.display_referred()}}
         .dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -138,7 +138,7 @@ Result<Frame> frame_like(const Shot& shot, const petzval_pixels* colour, const p
     }
     frame.layers_carried = shot.layers_carried;
     frame.camera = shot.camera;
-    frame.display_referred = shot.display_referred;
+    frame.code_bits = shot.code_bits;
     frame.carried = shot.carried;
     // A scene has no file that would hold its depth.
     if (const auto* metres = std::get_if<DepthMetres>(&shot.depth); metres && !shot.carried)

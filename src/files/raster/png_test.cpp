@@ -163,7 +163,7 @@ TEST(Png, AFrameIsDecodedThroughTheSrgbCurveAndPremultiplied) {
     options.need_depth = false;
     const Result<Frame> frame = read_frame(folder / "a.png", options);
     ASSERT_TRUE(frame) << frame.error().message;
-    EXPECT_TRUE(frame->display_referred);
+    EXPECT_TRUE(frame->display_referred());
     EXPECT_TRUE(frame->has_alpha);
     const Rgba c = frame->colour(0, 0);
     EXPECT_FLOAT_EQ(c.a, 0.2f);

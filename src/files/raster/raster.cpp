@@ -90,7 +90,7 @@ Frame header_of(const RasterFormat& format, const Raster& raster, Transfer trans
     Frame frame;
     frame.place = Place::whole(raster.rect());
     frame.has_alpha = raster.channels == 4;
-    frame.display_referred = !raster.is_float();
+    frame.code_bits = raster.is_float() ? 0 : raster.bits;
     frame.parts.push_back({"", format.type, "", raster.compression, frame.place.data_window, {}});
     const std::string kind = raster.is_float() ? " float" : " " + std::to_string(raster.bits) + " bit";
     for (int c = 0; c < raster.channels; ++c)

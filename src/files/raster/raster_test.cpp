@@ -80,7 +80,7 @@ void write_jpeg(const std::string& path, Jpeg jpeg) {
     write_marker(JPEG_APP0 + 1, jpeg.exif);
     write_marker(JPEG_APP0 + 2, jpeg.profile);
     for (int y = 0; y < jpeg.height; ++y) {
-        JSAMPLE* row = jpeg.samples.data() + y * jpeg.width * jpeg.channels;
+        JSAMPLE* row = jpeg.samples.data() + std::ptrdiff_t(y) * jpeg.width * jpeg.channels;
         jpeg_write_scanlines(&c, &row, 1);
     }
     jpeg_finish_compress(&c);
@@ -109,7 +109,7 @@ TEST(Jpeg, GreyAndColourAreDecodedThroughTheTransferCurve) {
             const auto frame = read_frame(folder / "a.jpg", without_depth());
             ASSERT_TRUE(frame) << frame.error().message;
             EXPECT_EQ(frame->place.display_window, (Rect{0, 0, 40, 24}));
-            EXPECT_TRUE(frame->display_referred);
+            EXPECT_TRUE(frame->display_referred());
             EXPECT_FALSE(frame->has_alpha);
             const Rgba left = frame->colour(3, 12), right = frame->colour(36, 12);
             EXPECT_NEAR(double(left.r), srgb_decode(60 / 255.0), 0.004);
@@ -344,7 +344,7 @@ TEST(Tiff, WholeNumbersAndFloatsAreReadHoweverTheyLie) {
         write_tiff(folder / "a.tif", kind);
         const auto frame = read_frame(folder / "a.tif", without_depth());
         ASSERT_TRUE(frame) << frame.error().message;
-        EXPECT_EQ(frame->display_referred, !kind.floats);
+        EXPECT_EQ(frame->display_referred(), !kind.floats);
         expect_values(*frame, kind);
     }
 }
