@@ -14,6 +14,7 @@ struct StageTime {
     double seconds = 0;
     // Bytes and multiply-adds as counted by the stage (docs/reference/report.md); 0: not counted.
     std::uint64_t bytes = 0, multiply_adds = 0;
+    bool is_glare = false;  // falloff or glare, after the engine
 };
 
 // One of several pictures in one.

@@ -176,15 +176,19 @@ std::string camera_line(const FoundCamera& camera, ImageScale image_scale) {
 namespace records {
 
 void add_stages(Json& record, const std::vector<StageTime>& stages, double seconds) {
-    double rest = seconds;
     Json& sums = record["seconds"];
-    for (const auto& [stage, sum] :
-         {std::pair("kernels", "kernels"), {"light", "glare"}, {"develop", "develop"}}) {
-        sums[sum] = 0.0;
-        for (const StageTime& one : stages)
-            if (one.stage == stage) sums[sum] = sums[sum].get<double>() + one.seconds, rest -= one.seconds;
-    }
-    sums["compute"] = rest;
+    double kernels = 0, glare = 0, develop = 0;
+    for (const StageTime& one : stages)
+        if (one.stage == "kernels")
+            kernels += one.seconds;
+        else if (one.stage == "develop")
+            develop += one.seconds;
+        else if (one.is_glare)
+            glare += one.seconds;
+    sums["kernels"] = kernels;
+    sums["glare"] = glare;
+    sums["develop"] = develop;
+    sums["compute"] = seconds - kernels - glare - develop;
     const auto counted = [](std::uint64_t n) { return n > 0 ? Json(n) : Json(nullptr); };
     for (const StageTime& stage : stages)
         record["stages"].push_back({{"stage", stage.stage},

@@ -201,6 +201,7 @@ DefocusReport FrameStages::Making::finished() {
         report.codes_device = std::move(made_codes.device);
         for (std::string& said : drawing->said()) report.warnings.push_back(std::move(said));
         if (is_lit) engine::Stopwatch(stages).lap("light");
+        for (StageTime& stage : stages) stage.is_glare = stage.stage != "develop";
         report.stages.insert(report.stages.end(), stages.begin(), stages.end());
         if (windows.made != windows.asked)
             cut(report, windows.asked.moved(-windows.made.x0, -windows.made.y0));

@@ -48,6 +48,13 @@ class Glare(CommandLineTest):
         self.assertEqual(report["glare"]["bloom"], 0.25)
         self.assertIsNone(self.report("develop", "in.exr", "-o", "out.png")["glare"])
 
+    def test_the_time_of_glare_is_that_of_its_stages(self):
+        report = self.report("defocus", "in.exr", "-o", "out.exr", *CAMERA, "--bloom", "0.2", "--star", "0.2", "--blades", "6")
+        seconds, stages = report["seconds"], {stage["stage"]: stage["seconds"] for stage in report["stages"]}
+        glare = [stages[name] for name in ("star's pattern", "highlights of glare", "bloom", "star", "light")]
+        self.assertAlmostEqual(seconds["glare"], sum(glare), delta=1e-6)
+        self.assertAlmostEqual(seconds["kernels"] + seconds["compute"] + seconds["glare"], sum(stages.values()), delta=0.02)
+
     def test_flags_without_effect_and_wrong_ones_are_refused(self):
         out = ["develop", "in.exr", "-o", "out.png"]
         for flags, says in ((["--star", "0.1"], "--blades"), (["--bloom-radius", "0.1"], "--bloom"),
