@@ -1,5 +1,6 @@
 // Data beside a picture in separate files: more pictures of the shot, a holdout, hidden layers.
 #include "shot/file_of_shot.h"
+#include "shot/plate_doubt.h"
 #include "shot/wording.h"
 
 #include <algorithm>
@@ -120,10 +121,14 @@ Status read_behind(Reading& r) {
                                                  ", but " + r.source.path + " covers " + window_text(ours) +
                                                  "; they must overlap"};
     r.shot.behind = shot::samples_of(hidden->frame);
-    if (theirs == ours) return Done{};
-    r.shot.behind = merge_deep({{&r.shot.behind, theirs}}, ours);
-    r.shot.detected.push_back("plate: covers " + window_text(theirs) +
-                              "; only the part inside the picture's " + window_text(ours) + " is used");
+    if (theirs != ours) {
+        r.shot.behind = merge_deep({{&r.shot.behind, theirs}}, ours);
+        r.shot.detected.push_back("plate: covers " + window_text(theirs) +
+                                  "; only the part inside the picture's " + window_text(ours) + " is used");
+    }
+    if (r.depth.kind == DepthKind::CocPx || r.plane.empty()) return Done{};
+    if (const std::string doubt = plate_doubt(r.shot, r.plane); !doubt.empty())
+        r.shot.warnings.push_back(doubt);
     return Done{};
 }
 

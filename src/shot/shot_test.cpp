@@ -202,6 +202,37 @@ TEST_F(Shots, HiddenLayersAreCutToThePicturesWindow) {
                 testing::AllOf(HasSubstr("shot.behind"), HasSubstr("must overlap")));
 }
 
+TEST_F(Shots, APlateThatIsHardlyThatOfThePictureIsDoubted) {
+    // A card 1 m away hides the middle of a wall.
+    const auto write = [&](const std::string& path, bool has_card, float wall_m, float light) {
+        const auto is_card = [has_card](int x) { return has_card && x >= 20 && x < 30; };
+        const auto colour = [=](int x, int) { return is_card(x) ? 0.9f : light + 0.01f * float(x % 7); };
+        test::write_quick_exr(path, {0, 0, 48, 32},
+                              {{"",
+                                "",
+                                {0, 0, 48, 32},
+                                {{"R", Imf::FLOAT, colour},
+                                 {"G", Imf::FLOAT, colour},
+                                 {"B", Imf::FLOAT, colour},
+                                 {"Z", Imf::FLOAT, [=](int x, int) { return is_card(x) ? 1 : wall_m; }}}}});
+    };
+    write(folder / "card.exr", true, 8, 0.3f);
+    write(folder / "wall.exr", false, 8, 0.3f);
+    write(folder / "wall_cm.exr", false, 800, 0.3f);
+    write(folder / "dark.exr", false, 8, 0.05f);
+    const auto warnings = [&](const char* picture, const char* plate) {
+        source.path = folder / picture;
+        source.behind = folder / plate;
+        return read().warnings;
+    };
+    using testing::Contains;
+    EXPECT_THAT(warnings("card.exr", "wall.exr"), testing::Each(testing::Not(HasSubstr("plate:"))));
+    EXPECT_THAT(warnings("wall.exr", "card.exr"), Contains(HasSubstr("are the two files swapped?")));
+    EXPECT_THAT(warnings("card.exr", "card.exr"), Contains(HasSubstr("shows nothing behind")));
+    EXPECT_THAT(warnings("card.exr", "wall_cm.exr"), Contains(HasSubstr("at 100 times its depth")));
+    EXPECT_THAT(warnings("card.exr", "dark.exr"), Contains(HasSubstr("another frame or exposure?")));
+}
+
 TEST_F(Shots, MergedPicturesCoverTheUnionAndTheNearerHides) {
     write_picture(folder / "near.exr", {0, 0, 10, 8}, 1);
     source.merge = {folder / "near.exr"};
