@@ -202,6 +202,10 @@ Status FrameMaker::open_wide() {
 // A wrong unit of depth or focus makes discs larger than the picture, which take minutes, or puts the focus
 // far from every surface.
 void FrameMaker::warn_of_wrong_units(const Camera& camera) {
+    constexpr double kWidest = 20;  // sensor widths per focal length: 169 degrees
+    if (camera.sensor_width_mm > kWidest * camera.focal_length_mm)
+        warn({"a focal length of " + plain(camera.focal_length_mm, 4) + " mm on a sensor " +
+              plain(camera.sensor_width_mm, 4) + " mm wide: look at their units, which are mm"});
     const DepthReport& depth = shot_.depth_report;
     const auto coc = CircleOfConfusion::make(camera, shot_.place.display_window.width(), look().coc);
     if (!coc || !(depth.nearest_m > 0)) return;

@@ -113,6 +113,12 @@ class DepthMeaning(CommandLineTest):
         self.assertIn("larger than the picture",
                       self.succeed("defocus", "z.exr", "-o", "out.exr", "--focal-length", "850").err)
 
+    def test_a_focal_length_in_metres_is_doubted(self):
+        write_exr(self.path("z.exr"), picture(WIDTH, HEIGHT, 0.5, 6), attributes=CAMERA)
+        for length, is_doubted in (("0.05", True), ("8mm", False)):
+            error = self.succeed("defocus", "z.exr", "-o", "out.exr", "--focal-length", length).err
+            self.assertEqual("look at their units" in error, is_doubted, error)
+
     def test_a_focus_where_no_surface_is_is_spoken_of(self):
         write_exr(self.path("z.exr"), picture(WIDTH, HEIGHT, 0.5, lambda x, y: 2 + x / 10), attributes=CAMERA)
         for flags in (["--focus", "200"], ["--focus", "80cm"], ["--focus", "3", "--unit-scale", "10m"]):
