@@ -155,6 +155,13 @@ class LightEngines(CommandLineTest):
         for text in ("2 of 5 given points are not finite", "1 of 5 given points have negative", "1 of 5 given points lie"):
             self.assertTrue(any(text in w for w in warnings), (text, warnings))
 
+    def test_points_in_fractions_of_the_frame_are_doubted(self):
+        for places, is_doubted in (("0.2,0.7 0.5,0.5", True), ("0.2,0.7 3.5,0.5", False), ("0.5,0.5", False)):
+            self.points(HEADER + "".join(place + ",1,1,1,1\n" for place in places.split()))
+            warnings = self.report("defocus", "black.exr", "-o", "out.exr", *CAMERA, "--engine", "sprites", "--points",
+                                   "points.csv")["warnings"]
+            self.assertEqual(any("not fractions" in w for w in warnings), is_doubted, (places, warnings))
+
     def test_a_malformed_line_is_named(self):
         for text, line, says in (("", None, "empty"), ("x,y,r,g,b\n", 1, "depth or coc"), ("a,b\n1,2\n", 1, "'a'"),
                                  ("x,y,coc,depth,r,g,b\n", 1, "both"), ("x,x,coc,r,g,b\n", 1, "twice"),

@@ -11,7 +11,7 @@ std::vector<LightPoint> drawable_points(const Rendered& rendered,
     std::vector<LightPoint> points;
     if (!rendered.lights) return points;
     points.reserve(rendered.lights->size());
-    std::size_t not_finite = 0, negative = 0, outside = 0;
+    std::size_t not_finite = 0, negative = 0, outside = 0, in_first_pixel = 0;
     for (LightPoint p : *rendered.lights) {
         const bool has_depth = !std::isnan(p.depth_m);
         const bool finite = std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.r) &&
@@ -28,6 +28,7 @@ std::vector<LightPoint> drawable_points(const Rendered& rendered,
         if (p.x < 0 || p.y < 0 || p.x >= float(rendered.colour.width()) ||
             p.y >= float(rendered.colour.height()))
             ++outside;
+        in_first_pixel += p.x >= 0 && p.y >= 0 && p.x <= 1 && p.y <= 1;
         // A point's depth has no meaning beside radii of the picture.
         if (has_depth && !has_radii(rendered)) p.coc_px = radius_px(p.depth_m);
         points.push_back(p);
@@ -39,6 +40,8 @@ std::vector<LightPoint> drawable_points(const Rendered& rendered,
     };
     report(not_finite, "are not finite and were left out");
     report(negative, "have negative light, depth or size and were left out");
+    if (in_first_pixel > 1 && in_first_pixel == points.size())
+        report(in_first_pixel, "lie in the first pixel: x and y are pixels, not fractions of the frame");
     report(outside, "lie outside the frame; parts of their discs inside it are drawn");
     return points;
 }
