@@ -2,8 +2,11 @@
 #include "shot/file_of_shot.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <utility>
 
 namespace petzval {
@@ -94,6 +97,25 @@ Result<Values> read_values(const Reading& r, const FileChannel& from) {
 // A value outside of 0…1 is the nearer end; what a file does not cover is infinite, and nothing.
 float share(float value) { return value > 0 && std::isfinite(value) ? std::min(value, 1.0f) : 0.0f; }
 
+// A PNG of the codes 0 and 1, or a matte in codes of 8 bits as floats, is hardly meant.
+void warn_of_range(const Plane& values, std::vector<std::string>& warnings) {
+    constexpr float kNothing = 0.02f;
+    float least = std::numeric_limits<float>::infinity(), most = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const float value = values.pixels()[i];
+        if (!std::isfinite(value)) continue;
+        least = std::min(least, value);
+        most = std::max(most, value);
+    }
+    std::array<char, 120> text{};
+    if (most < kNothing)
+        std::snprintf(text.data(), text.size(), "mask: is at most %.3g, so the picture hardly changes", most);
+    else if (least < -kNothing || most > 1 + kNothing)
+        std::snprintf(text.data(), text.size(), "mask: has values from %.3g to %.3g: it is cut to 0 to 1",
+                      least, most);
+    if (text[0] != 0) warnings.emplace_back(text.data());
+}
+
 }  // namespace
 
 Status read_mask(Reading& r) {
@@ -110,6 +132,7 @@ Status read_mask(Reading& r) {
                 share(values->plane(x - values->window.x0, y - values->window.y0));
     extend_mask(r.shot, place.data_window);
     r.shot.detected.push_back("mask: " + from.file + ", " + values->what);
+    warn_of_range(values->plane, r.shot.warnings);
     return Done{};
 }
 

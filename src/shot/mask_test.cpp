@@ -55,6 +55,19 @@ TEST_F(Masks, AreZeroOutsideOfTheirPixelsAndGoOnBeyondTheFrame) {
     EXPECT_EQ(lent->mask(5 + 5, 3 + 4), 0.5f);
 }
 
+TEST_F(Masks, OutOfRangeAreCutWithAWarning) {
+    using testing::Contains;
+    write_picture();
+    const auto warnings = [&](float value) {
+        EXPECT_TRUE(write_exr_planes(folder / "m.exr", {kFrame, kFrame}, {{"roto", Plane(12, 8, value)}}));
+        return read("m.exr").warnings;
+    };
+    EXPECT_THAT(warnings(1), testing::IsEmpty());
+    EXPECT_THAT(warnings(255), Contains(HasSubstr("mask: has values from 255 to 255")));
+    EXPECT_THAT(warnings(-1), Contains(HasSubstr("hardly changes")));
+    EXPECT_THAT(warnings(1 / 255.0f), Contains(HasSubstr("at most 0.00392")));
+}
+
 TEST_F(Masks, AreTheChannelThatIsNamedElseAlphaElseLuminance) {
     write_picture();
     const Plane half(12, 8, 0.5f), one(12, 8, 1.0f), quarter(12, 8, 0.25f);
