@@ -71,7 +71,8 @@ Landing carried(const Steps& steps, int x, int y, const Rect& to, PixelMove sign
         }
         const int next = i + 1 < steps.size() ? steps[i + 1].frames_later : 0;
         const int frames = std::abs(steps[i].frames_later - next);
-        at_x += frames * double(move.x * signs.x), at_y += frames * double(move.y * signs.y);
+        at_x += frames * double(move.x * signs.x);
+        at_y += frames * double(move.y * signs.y);
         if (!(std::abs(at_x) < 1e7 && std::abs(at_y) < 1e7)) return {};  // unknown, or no picture is so wide
     }
     return {float(at_x - to.x0), float(at_y - to.y0), depth};

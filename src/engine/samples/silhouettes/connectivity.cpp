@@ -2,53 +2,21 @@
 
 #include "base/parallel.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <vector>
 
 namespace petzval::engine {
 namespace {
 
-constexpr float kNoStep = 1e30f;
-
-// The smallest step that a line of pixels takes twice in succession, with any number of equal pixels between.
-struct Stairs {
-    float last = 0, least = kNoStep;
-    void add(float step) {
-        if (step == 0) return;
-        if (std::abs(step - last) <= 0.01f * std::abs(step)) least = std::min(least, std::abs(step));
-        last = step;
-    }
-};
-
-// The step of depths that have few bits; next to nothing if they have many.
-float quantum_px(View<const float> coc, Workers& workers) {
-    constexpr int kColumns = 64;
-    const int width = coc.width(), height = coc.height(), strips = (width + kColumns - 1) / kColumns;
-    std::vector<float> found(std::size_t(height + strips), kNoStep);
-    parallel_for(height, workers, [&](int y) {
-        Stairs row;
-        for (int x = 0; x + 1 < width; ++x) row.add(coc(x + 1, y) - coc(x, y));
-        found[std::size_t(y)] = row.least;
-    });
-    parallel_for(strips, workers, [&](int i) {
-        std::array<Stairs, kColumns> columns;
-        const int x0 = i * kColumns, count = std::min(kColumns, width - x0);
-        for (int y = 0; y + 1 < height; ++y)
-            for (int n = 0; n < count; ++n) columns[std::size_t(n)].add(coc(x0 + n, y + 1) - coc(x0 + n, y));
-        for (const Stairs& column : columns)
-            found[std::size_t(height + i)] = std::min(found[std::size_t(height + i)], column.least);
-    });
-    return found.empty() ? kNoStep : *std::min_element(found.begin(), found.end());
-}
-
-// A narrower step always connects, because it hides almost nothing or is one of rounded depths. (Larger ones
-// may be cards, one behind the other.)
-float least_step_px(View<const float> coc, Workers& workers) {
-    const CompletionModel& model = completion_model;
-    const float rounded_px = 1.25f * quantum_px(coc, workers);
-    return rounded_px > 3 * model.step_px ? model.between_px() : std::max(rounded_px, model.between_px());
+// True if the step of the radius between two pixels is one of rounded depths: on this side, it recurs after
+// any number of equal pixels. step(n): n pixels away. (Larger steps may be cards, one behind the other.)
+bool is_rounded(const auto& step, int side) {
+    constexpr int kEqualPx = 64;
+    const float own = step(0);
+    if (std::abs(own) > 3 * completion_model.step_px) return false;
+    for (int n = 1; n <= kEqualPx; ++n)
+        if (const float next = step(side * n); next != 0)
+            return std::abs(next - own) <= 0.01f * std::abs(own);
+    return false;
 }
 
 }  // namespace
@@ -56,12 +24,13 @@ float least_step_px(View<const float> coc, Workers& workers) {
 Image<unsigned char> connections(View<const float> coc, Workers& workers) {
     const int width = coc.width(), height = coc.height();
     Image<unsigned char> connected(width, height, kAll);
-    const float least_px = least_step_px(coc, workers);
+    const float least_px = completion_model.between_px();
     const auto joined = [&](int x, int y, int dx, int dy) {
         const auto step = [&](int n) {
             return coc.clamped(x + (n + 1) * dx, y + (n + 1) * dy) - coc.clamped(x + n * dx, y + n * dy);
         };
-        return continues_slope(step(0), step(-1), step(-2)) || continues_slope(step(0), step(1), step(2));
+        return continues_slope(step(0), step(-1), step(-2)) || continues_slope(step(0), step(1), step(2)) ||
+               is_rounded(step, 1) || is_rounded(step, -1);
     };
     // Each row is written by one thread; both rows of a pair decide about it.
     parallel_for(height, workers, [&](int y) {
